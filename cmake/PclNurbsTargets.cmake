@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Targets in the shape of PCL's own macros, which PCL does not install.
+
+include(GenerateExportHeader)
+include(GNUInstallDirs)
+
+# pcl_nurbs_add_library(<module> SOURCES <files...> LINK_PUBLIC <libs...>
+#                       LINK_PRIVATE <libs...>)
+# Library pcl_nurbs_<module> with alias pcl_nurbs::<module>, its headers under
+# <module>/include, and the export header <pcl/EXPORT_DIR/exports.h>.
+function(pcl_nurbs_add_library module)
+  cmake_parse_arguments(ARG "" "EXPORT_HEADER" "SOURCES;LINK_PUBLIC;LINK_PRIVATE" ${ARGN})
+  set(target pcl_nurbs_${module})
+  add_library(${target} ${ARG_SOURCES})
+  add_library(pcl_nurbs::${module} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${module}
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON
+    POSITION_INDEPENDENT_CODE ON)
+  string(TOUPPER ${module} upper)
+  generate_export_header(${target}
+    BASE_NAME ${target}
+    EXPORT_MACRO_NAME PCL_NURBS_${upper}_EXPORT
+    EXPORT_FILE_NAME ${CMAKE_CURRENT_BINARY_DIR}/include/${ARG_EXPORT_HEADER})
+  target_include_directories(${target}
+    PUBLIC
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}/include>
+      $<INSTALL_INTERFACE:${PCL_NURBS_INCLUDE_DIR}>
+    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_link_libraries(${target} PUBLIC ${ARG_LINK_PUBLIC} PRIVATE ${ARG_LINK_PRIVATE}
+    PRIVATE $<BUILD_INTERFACE:pcl_nurbs_warnings>)
+  install(TARGETS ${target} EXPORT pcl_nurbs-targets COMPONENT ${module}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(DIRECTORY include/ ${CMAKE_CURRENT_BINARY_DIR}/include/
+    DESTINATION ${PCL_NURBS_INCLUDE_DIR} COMPONENT ${module})
+endfunction()
+
+# pcl_nurbs_add_executable(<name> SOURCES <files...> LINK_WITH <libs...>)
+function(pcl_nurbs_add_executable name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK_WITH" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK_WITH} pcl_nurbs_warnings)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# pcl_nurbs_add_test(<name> SOURCES <files...> LINK_WITH <libs...>)
+# One gtest program, one ctest entry: loading PCL's libraries for each of thousands of
+# law tests would take longer than the tests.
+function(pcl_nurbs_add_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK_WITH" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test/support)
+  target_link_libraries(${name} PRIVATE ${ARG_LINK_WITH} pcl_nurbs_warnings GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    PCL_NURBS_TEST_DATA="${PROJECT_SOURCE_DIR}/test/data")
+  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 600)
+endfunction()
