@@ -60,7 +60,8 @@ function(pcl_nurbs_add_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test/support)
   target_link_libraries(${name} PRIVATE ${ARG_LINK_WITH} pcl_nurbs_warnings GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
-    PCL_NURBS_TEST_DATA="${PROJECT_SOURCE_DIR}/test/data")
+    PCL_NURBS_TEST_DATA="${PROJECT_SOURCE_DIR}/test/data"
+    PCL_NURBS_DEFAULT_DATA="${PCL_NURBS_DATA}")
   add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
   set_tests_properties(${name} PROPERTIES TIMEOUT 600)
 endfunction()
