@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "orthogonal_problem.h"
+
+#include "foot_point.h"
+#include "robust_loss.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+/** Denominator of a rational surface at a parameter. */
+double
+evaluateWeight(const NurbsSurface& surface, const Eigen::Vector2d& uv)
+{
+  const KnotVector& u = surface.knotsU();
+  const KnotVector& v = surface.knotsV();
+  const int span_u = u.findSpan(uv.x());
+  const int span_v = v.findSpan(uv.y());
+  BasisValues basis_u;
+  BasisValues basis_v;
+  u.evaluateBasis(span_u, uv.x(), basis_u);
+  v.evaluateBasis(span_v, uv.y(), basis_v);
+  double weight = 0.0;
+  for (int i = 0; i <= u.degree(); ++i)
+    for (int j = 0; j <= v.degree(); ++j)
+      weight += basis_u[static_cast<std::size_t>(i)] *
+                basis_v[static_cast<std::size_t>(j)] *
+                surface.weight(span_u - u.degree() + i, span_v - v.degree() + j);
+  return weight;
+}
+
+/** Unit normal and two unit tangents as columns. */
+Eigen::Matrix3d
+surfaceFrame(const SurfaceJet1& jet)
+{
+  Eigen::Matrix3d frame;
+  frame.col(0) = jet.du.cross(jet.dv).normalized();
+  frame.col(1) = jet.du.normalized();
+  frame.col(2) = frame.col(0).cross(frame.col(1));
+  return frame;
+}
+
+} // namespace
+
+HeightUnknowns::HeightUnknowns(const HeightFieldFrame& frame,
+                               KnotVector knots_u,
+                               KnotVector knots_v)
+    : frame_(frame), knots_u_(std::move(knots_u)), knots_v_(std::move(knots_v))
+{
+}
+
+NurbsSurface
+HeightUnknowns::surface(const Eigen::MatrixXd& unknowns) const
+{
+  return frame_.surface(knots_u_, knots_v_, unknowns.row(0).transpose());
+}
+
+void
+HeightUnknowns::sensitivity(const NurbsSurface& /*surface*/,
+                            const Eigen::Vector2d& uv,
+                            const Eigen::Vector3d& foot,
+                            const Eigen::Vector3d& direction,
+                            double* factors) const
+{
+  const Eigen::Vector4d local(uv.x(), uv.y(), frame_.toLocal(foot).z(), 1.0);
+  const double weight = frame_.matrix().row(3).dot(local);
+  factors[0] = direction.dot(frame_.derivativeByHeight(foot, weight));
+}
+
+HomogeneousUnknowns::HomogeneousUnknowns(const NurbsSurface& start, bool weights_too)
+    : start_(start), weights_too_(weights_too)
+{
+}
+
+NurbsSurface
+HomogeneousUnknowns::surface(const Eigen::MatrixXd& unknowns) const
+{
+  NurbsSurface::HomogeneousPoints points = start_.homogeneousPoints();
+  points.topRows(unknowns.rows()) = unknowns;
+  return {start_.knotsU(), start_.knotsV(), std::move(points)};
+}
+
+void
+HomogeneousUnknowns::sensitivity(const NurbsSurface& surface,
+                                 const Eigen::Vector2d& uv,
+                                 const Eigen::Vector3d& foot,
+                                 const Eigen::Vector3d& direction,
+                                 double* factors) const
+{
+  Eigen::Map<Eigen::Vector3d> moved(factors);
+  moved = direction / evaluateWeight(surface, uv);
+  if (weights_too_)
+    factors[3] = -moved.dot(foot);
+}
+
+/** What each point contributes, in the order of the points. */
+struct OrthogonalProblem::PointTerms {
+  Eigen::MatrixXd factors;  // channels x (rows of all points): sqrt(weight) m_a
+  Eigen::VectorXd residual; // per row: sqrt(weight) direction . (point - foot)
+  Eigen::VectorXd cost;     // per point: rho
+};
+
+OrthogonalProblem::OrthogonalProblem(const SurfaceUnknowns& unknowns,
+                                     const NurbsSurface& start,
+                                     const Eigen::Matrix3Xd& positions,
+                                     const Eigen::Matrix2Xd& parameters,
+                                     const Eigen::VectorXd& sigma,
+                                     const SurfaceFitOptions& options)
+    : unknowns_(unknowns),
+      knots_u_(start.knotsU()),
+      knots_v_(start.knotsV()),
+      positions_(positions),
+      parameters_(parameters),
+      sigma_(sigma),
+      options_(options)
+{
+}
+
+void
+OrthogonalProblem::evaluatePoints(const NurbsSurface& surface,
+                                  Eigen::Matrix2Xd& parameters,
+                                  PointTerms& terms) const
+{
+  constexpr int kSteps = 3; // the residual is small beside the radius of curvature
+  constexpr double kSlidingWeight = 1e-3;
+  constexpr double kDomainMargin = 0.5;
+  const Eigen::Index count = positions_.cols();
+  const int rows = rowsPerPoint();
+  const double margin = unknowns_.channels() == 1 ? 0.0 : kDomainMargin;
+  terms.factors.resize(unknowns_.channels(), rows * count);
+  terms.residual.resize(rows * count);
+  terms.cost.resize(count);
+#pragma omp parallel for schedule(static)                                              \
+    num_threads(options_.threads) if (options_.threads > 1)
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Vector3d point = positions_.col(k);
+    const SurfaceJet1 jet =
+        projectFrom(surface, point, kSteps, margin, parameters.col(k));
+    const Eigen::Vector2d uv = parameters.col(k);
+    const Eigen::Matrix3d frame = surfaceFrame(jet); // normal, then two tangents
+    const double distance = frame.col(0).dot(point - jet.position);
+    const double s = distance / sigma_(k);
+    const LossValue loss = evaluateLoss(options_.loss, options_.loss_scale, s * s);
+    for (int row = 0; row < rows; ++row) {
+      const double root = std::sqrt(loss.slope) / sigma_(k) *
+                          (row == 0 ? 1.0 : std::sqrt(kSlidingWeight));
+      const Eigen::Index at = rows * k + row;
+      double* factors = terms.factors.data() + at * terms.factors.rows();
+      unknowns_.sensitivity(surface, uv, jet.position, frame.col(row), factors);
+      terms.factors.col(at) *= root;
+      terms.residual(at) = row == 0 ? root * distance : 0.0;
+    }
+    terms.cost(k) = loss.rho;
+  }
+}
+
+void
+OrthogonalProblem::reduce(const Eigen::MatrixXd& unknowns,
+                          const Eigen::Matrix2Xd& parameters,
+                          const PointTerms& terms,
+                          bool derivatives,
+                          std::vector<TriangularCell>& cells) const
+{
+  const CellPoints points(knots_u_, knots_v_, parameters);
+  const int c = derivatives ? unknowns_.channels() : 0;
+  PointRows rows;
+  rows.channels = c;
+  rows.gram.resize(parameters.cols(), c * (c + 1) / 2);
+  rows.moments.resize(parameters.cols(), c);
+  rows.squares.resize(parameters.cols(), 1);
+  for (Eigen::Index k = 0; k < parameters.cols(); ++k) {
+    const int n = points.order[static_cast<std::size_t>(k)];
+    const int r = rowsPerPoint();
+    const auto factors = terms.factors.middleCols(r * n, r);
+    for (int a = 0, pair = 0; a < c; ++a) {
+      rows.moments(k, a) = factors.row(a).dot(terms.residual.segment(r * n, r));
+      for (int b = a; b < c; ++b, ++pair)
+        rows.gram(k, pair) = factors.row(a).dot(factors.row(b));
+    }
+    rows.squares(k, 0) = terms.cost(n);
+  }
+  std::vector<CellEquations> equations = reduceCells(points, rows, options_.threads);
+  if (options_.fairness > 0.0)
+    addFairnessAround(points,
+                      {options_.fairness * static_cast<double>(parameters.cols()), 0.0},
+                      unknowns,
+                      derivatives,
+                      equations);
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    cells[cell] = factorizeCell(equations[cell]);
+}
+
+void
+OrthogonalProblem::linearize(const Eigen::MatrixXd& unknowns,
+                             bool derivatives,
+                             std::vector<TriangularCell>& cells)
+{
+  try {
+    const NurbsSurface surface = unknowns_.surface(unknowns);
+    Eigen::Matrix2Xd parameters = parameters_;
+    PointTerms terms;
+    evaluatePoints(surface, parameters, terms);
+    reduce(unknowns, parameters, terms, derivatives, cells);
+    if (derivatives)
+      parameters_ = std::move(parameters);
+  } catch (const std::logic_error&) { // no surface there: a cost that Ceres must reject
+    for (TriangularCell& cell : cells)
+      cell.rest.setConstant(1, std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+namespace {
+
+/** Knots of the same spline over a wider domain, and the matrix that takes its
+ * coefficients there: both splines agree at the Greville points of the new knots. */
+std::pair<KnotVector, Eigen::MatrixXd>
+extendKnots(const KnotVector& knots, double low, double high)
+{
+  const int p = knots.degree();
+  std::vector<double> values = knots.values();
+  std::fill(values.begin(), values.begin() + p + 1, std::min(low, knots.domainMin()));
+  std::fill(values.end() - p - 1, values.end(), std::max(high, knots.domainMax()));
+  KnotVector wider(p, std::move(values));
+  const int n = knots.numControlPoints();
+  const auto collocation = [&](const KnotVector& basis_knots, bool extrapolate) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+    for (int row = 0; row < n; ++row) {
+      const double u = wider.greville(row);
+      const int span = extrapolate ? knots.findSpan(u) : basis_knots.findSpan(u);
+      BasisValues basis;
+      basis_knots.evaluateBasis(span, u, basis);
+      for (int r = 0; r <= p; ++r)
+        matrix(row, span - p + r) = basis[static_cast<std::size_t>(r)];
+    }
+    return matrix;
+  };
+  return {wider,
+          collocation(wider, false).partialPivLu().solve(collocation(knots, true))};
+}
+
+} // namespace
+
+NurbsSurface
+extendedDomain(const NurbsSurface& surface, const Eigen::Matrix2Xd& parameters)
+{
+  const Eigen::Vector2d low = parameters.rowwise().minCoeff();
+  const Eigen::Vector2d high = parameters.rowwise().maxCoeff();
+  const auto [knots_u, matrix_u] = extendKnots(surface.knotsU(), low.x(), high.x());
+  const auto [knots_v, matrix_v] = extendKnots(surface.knotsV(), low.y(), high.y());
+  const int n_v = surface.numControlPointsV();
+  NurbsSurface::HomogeneousPoints points(4, surface.numControlPoints());
+  for (int row = 0; row < 4; ++row) {
+    Eigen::MatrixXd net(surface.numControlPointsU(), n_v);
+    for (int k = 0; k < surface.numControlPoints(); ++k)
+      net(k / n_v, k % n_v) = surface.homogeneousPoints()(row, k);
+    net = matrix_u * net * matrix_v.transpose();
+    for (int k = 0; k < surface.numControlPoints(); ++k)
+      points(row, k) = net(k / n_v, k % n_v);
+  }
+  if (!(points.row(3).minCoeff() > 0.0))
+    throw std::domain_error("surface fit: a weight is not positive");
+  return {knots_u, knots_v, std::move(points)};
+}
+
+} // namespace nurbs
+} // namespace pcl
