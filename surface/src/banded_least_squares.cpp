@@ -27,22 +27,28 @@ BandedLeastSquares::add(Eigen::Index first,
                         Eigen::VectorXd coefficients,
                         Eigen::VectorXd value)
 {
-  coefficients.conservativeResizeLike(Eigen::VectorXd::Zero(band_.rows()));
+  const Eigen::Index bandwidth = band_.rows();
+  const Eigen::Index count = coefficients.size();
+  coefficients.conservativeResize(bandwidth);
+  coefficients.tail(bandwidth - count).setZero();
   for (Eigen::Index j = first; j < band_.cols() && !coefficients.isZero(0.0); ++j) {
-    if (coefficients(0) != 0.0) {
-      Eigen::JacobiRotation<double> rotation;
-      rotation.makeGivens(band_(0, j), coefficients(0));
-      const double c = rotation.c();
-      const double s = rotation.s();
-      const Eigen::VectorXd row = band_.col(j);
-      band_.col(j) = c * row - s * coefficients;
-      coefficients = s * row + c * coefficients;
-      const Eigen::VectorXd right = right_.col(j);
-      right_.col(j) = c * right - s * value;
-      value = s * right + c * value;
+    Eigen::JacobiRotation<double> rotation;
+    rotation.makeGivens(band_(0, j), coefficients(0));
+    const double c = rotation.c();
+    const double s = rotation.s();
+    double carried = 0.0; // the rotated row moves one place to the left
+    for (Eigen::Index k = bandwidth - 1; k >= 0; --k) {
+      const double old = band_(k, j);
+      band_(k, j) = c * old - s * coefficients(k);
+      const double rotated = s * old + c * coefficients(k);
+      coefficients(k) = carried;
+      carried = rotated;
     }
-    coefficients.head(band_.rows() - 1) = coefficients.tail(band_.rows() - 1).eval();
-    coefficients.tail<1>().setZero();
+    for (Eigen::Index k = 0; k < right_.rows(); ++k) {
+      const double old = right_(k, j);
+      right_(k, j) = c * old - s * value(k);
+      value(k) = s * old + c * value(k);
+    }
   }
 }
 
