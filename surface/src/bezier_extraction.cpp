@@ -115,7 +115,8 @@ BezierPatch::split(Direction direction, BezierPatch& low, BezierPatch& high) con
   }
   low.v_max = high.v_min = 0.5 * (v_min + v_max);
   for (int i = 0; i <= degree_u; ++i)
-    splitRow(&points[i * row], degree_v, 1, &low.points[i * row], &high.points[i * row]);
+    splitRow(
+        &points[i * row], degree_v, 1, &low.points[i * row], &high.points[i * row]);
 }
 
 Direction
@@ -152,9 +153,10 @@ extractBezier(const NurbsSurface& surface)
       for (int a = 0; a <= p; ++a) {
         Eigen::Matrix4Xd row = Eigen::Matrix4Xd::Zero(4, q + 1);
         for (int i = 0; i <= p; ++i)
-          row += u.matrix(a, i) *
-                 surface.homogeneousPoints().middleCols(
-                     (u.span - p + i) * surface.numControlPointsV() + v.span - q, q + 1);
+          row +=
+              u.matrix(a, i) *
+              surface.homogeneousPoints().middleCols(
+                  (u.span - p + i) * surface.numControlPointsV() + v.span - q, q + 1);
         row *= v.matrix.transpose();
         for (int b = 0; b <= q; ++b)
           patch(a, b) = row.col(b);

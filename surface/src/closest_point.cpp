@@ -95,6 +95,14 @@ descentStep(const Slope& slope, bool free_u, bool free_v)
   return step;
 }
 
+/** Steepest descent, scaled per parameter: decreases the distance also where borders
+ * cut off parts of it, which a Newton step need not do. */
+Eigen::Vector2d
+gradientStep(const Slope& slope)
+{
+  return {-slope.u / (slope.e + 1e-300), -slope.v / (slope.g + 1e-300)};
+}
+
 /** One descent to a local minimum of the distance. */
 class Descent {
 public:
@@ -120,7 +128,7 @@ public:
   FootPoint
   foot() const
   {
-    return {u_.value(), v_.value(), squared_};
+    return {u_.value(), v_.value(), squared_, converged_};
   }
 
   ClosestPoint
@@ -174,7 +182,7 @@ Descent::run()
     else if (length <= last_step_ && std::abs(step.x()) <= kShare * u_.length() &&
              std::abs(step.y()) <= kShare * v_.length())
       finish(step);
-    else if (!tryStep(step))
+    else if (!tryStep(step) && !tryStep(gradientStep(slope)))
       return;
   }
 }
@@ -235,10 +243,9 @@ Descent::result() const
   result.distance = std::sqrt(squared_);
   const Eigen::Vector3d normal = jet_.du.cross(jet_.dv);
   const double length = normal.norm();
-  result.signed_distance =
-      length > 1e-10 * jet_.du.norm() * jet_.dv.norm()
-          ? -residual_.dot(normal) / length
-          : -residual_.dot(surface_.normal(result.u, result.v));
+  result.signed_distance = length > 1e-10 * jet_.du.norm() * jet_.dv.norm()
+                               ? -residual_.dot(normal) / length
+                               : -residual_.dot(surface_.normal(result.u, result.v));
   result.converged = converged_;
   result.at_boundary = u_.atOpenEnd() || v_.atOpenEnd();
   return result;

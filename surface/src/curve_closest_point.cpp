@@ -48,8 +48,7 @@ public:
       const double second = speed + residual_.dot(jet_[2]);
       const double step = -slope / (second > 0.0 ? second : speed + 1e-300);
       const double target = u_.clamp(u_.value() + step);
-      converged_ =
-          std::abs(target - u_.value()) * std::sqrt(speed) <= no_step_;
+      converged_ = std::abs(target - u_.value()) * std::sqrt(speed) <= no_step_;
       if (converged_ || !tryStep(target - u_.value()))
         return;
     }
@@ -58,7 +57,7 @@ public:
   FootPoint
   foot() const
   {
-    return {u_.value(), 0.0, residual_.squaredNorm()};
+    return {u_.value(), 0.0, residual_.squaredNorm(), converged_};
   }
 
   CurveClosestPoint<Dim>

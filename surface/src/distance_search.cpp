@@ -100,8 +100,7 @@ SquaredDistance::SquaredDistance(const BezierPatch& patch,
       Eigen::Vector4d a = patch(i, j);
       a.head<3>() -= a(3) * p;
       largest = std::max(largest, a.head<3>().squaredNorm() + bound * a(3) * a(3));
-      scaled[i * row + j] =
-          choose[patch.degree_u][i] * choose[patch.degree_v][j] * a;
+      scaled[i * row + j] = choose[patch.degree_u][i] * choose[patch.degree_v][j] * a;
     }
   rounding_ = 4e-15 * largest;
   std::fill_n(values_.begin(), size(), 0.0);
@@ -153,8 +152,8 @@ SquaredDistance::secondDifferences(bool largest) const
 bool
 SquaredDistance::isConvex() const
 {
-  const Eigen::Array3d d = secondDifferences(false) +
-                           rounding_ * Eigen::Array3d(m_ * m_, -m_ * n_, n_ * n_);
+  const Eigen::Array3d d =
+      secondDifferences(false) + rounding_ * Eigen::Array3d(m_ * m_, -m_ * n_, n_ * n_);
   if (n_ == 0)
     return d(0) >= 0.0;
   const double mixed = std::max(d(1), 0.0);
@@ -170,13 +169,15 @@ SquaredDistance::moreCurved() const
   return d(0) >= d(2) ? Direction::U : Direction::V;
 }
 
+/** Whether a true local minimum has been found inside of the piece. */
 bool
-contains(const BezierPatch& patch, const FootPoint& foot)
+holdsMinimum(const BezierPatch& patch, const FootPoint& foot)
 {
   const double slack_u = 1e-9 * (patch.u_max - patch.u_min);
   const double slack_v = 1e-9 * (patch.v_max - patch.v_min);
-  return foot.u >= patch.u_min - slack_u && foot.u <= patch.u_max + slack_u &&
-         foot.v >= patch.v_min - slack_v && foot.v <= patch.v_max + slack_v;
+  return foot.converged && foot.u >= patch.u_min - slack_u &&
+         foot.u <= patch.u_max + slack_u && foot.v >= patch.v_min - slack_v &&
+         foot.v <= patch.v_max + slack_v;
 }
 
 } // namespace
@@ -254,12 +255,12 @@ DistanceSearch::examine(const BezierPatch& patch, int splits_left)
   if (f.isNonNegative())
     return;
   const bool convex = f.isConvex();
-  if (convex && contains(patch, best_))
+  if (convex && holdsMinimum(patch, best_))
     return;
   const Eigen::Vector2d start = f.lowest();
   improve(patch.u_min + start.x() * (patch.u_max - patch.u_min),
           patch.v_min + start.y() * (patch.v_max - patch.v_min));
-  if ((convex && contains(patch, latest_)) || splits_left == 0)
+  if ((convex && holdsMinimum(patch, latest_)) || splits_left == 0)
     return;
   std::array<BezierPatch, 2> halves;
   patch.split(f.moreCurved(), halves[0], halves[1]);

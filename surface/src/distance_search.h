@@ -18,6 +18,7 @@ struct FootPoint {
   double u = 0.0;
   double v = 0.0;
   double squared_distance = std::numeric_limits<double>::infinity();
+  bool converged = false;
 };
 
 /** \brief Finds the global minimum of the distance from a point to a set of Bézier

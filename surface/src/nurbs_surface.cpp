@@ -38,6 +38,7 @@ NurbsSurface::NurbsSurface(KnotVector knots_u,
     throw std::invalid_argument("NurbsSurface: a control point is not finite");
   if (!(points_.row(3).minCoeff() > 0.0))
     throw std::invalid_argument("NurbsSurface: a weight is not positive");
+  rational_ = (points_.row(3).array() != points_(3, 0)).any();
 }
 
 NurbsSurface
@@ -52,12 +53,6 @@ NurbsSurface::fromControlPoints(KnotVector knots_u,
   if (weights.size() != 0)
     homogeneous = homogeneous * weights.asDiagonal();
   return {std::move(knots_u), std::move(knots_v), std::move(homogeneous)};
-}
-
-bool
-NurbsSurface::isRational() const
-{
-  return (points_.row(3).array() != points_(3, 0)).any();
 }
 
 SurfaceDerivatives

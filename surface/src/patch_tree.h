@@ -41,7 +41,7 @@ class PatchTree {
 public:
   struct Node {
     OrientedBox box;
-    int left = -1;  // children, or -1 for a leaf
+    int left = -1; // children, or -1 for a leaf
     int right = -1;
     int leaf = -1;
   };

@@ -76,8 +76,8 @@ class DescentParameter {
 public:
   DescentParameter(const SmoothIntervals& intervals, double start)
       : intervals_(&intervals),
-        value_(std::clamp(
-            start, intervals[0].low, intervals[intervals.count() - 1].high)),
+        value_(
+            std::clamp(start, intervals[0].low, intervals[intervals.count() - 1].high)),
         index_(intervals.find(value_))
   {
   }

@@ -152,14 +152,22 @@ NurbsSurface::evaluateJet2(double u, double v) const
 {
   const HomogeneousJet h = homogeneousJet<2>(*this, u, v);
   const double scale = 1.0 / h.value(3);
-  SurfaceJet2 s; // quotient rule, equation 4.20
+  SurfaceJet2 s;
   s.position = scale * h.value.head<3>();
-  s.du = scale * (h.du.head<3>() - h.du(3) * s.position);
-  s.dv = scale * (h.dv.head<3>() - h.dv(3) * s.position);
-  s.duu = scale * (h.duu.head<3>() - 2.0 * h.du(3) * s.du - h.duu(3) * s.position);
-  s.dvv = scale * (h.dvv.head<3>() - 2.0 * h.dv(3) * s.dv - h.dvv(3) * s.position);
-  s.duv = scale *
-          (h.duv.head<3>() - h.du(3) * s.dv - h.dv(3) * s.du - h.duv(3) * s.position);
+  s.du = scale * h.du.head<3>();
+  s.dv = scale * h.dv.head<3>();
+  s.duu = scale * h.duu.head<3>();
+  s.duv = scale * h.duv.head<3>();
+  s.dvv = scale * h.dvv.head<3>();
+  if (!rational_)
+    return s;
+  const double w_u = scale * h.du(3); // quotient rule, equation 4.20
+  const double w_v = scale * h.dv(3);
+  s.du -= w_u * s.position;
+  s.dv -= w_v * s.position;
+  s.duu -= 2.0 * w_u * s.du + scale * h.duu(3) * s.position;
+  s.dvv -= 2.0 * w_v * s.dv + scale * h.dvv(3) * s.position;
+  s.duv -= w_u * s.dv + w_v * s.du + scale * h.duv(3) * s.position;
   return s;
 }
 
