@@ -29,7 +29,7 @@ constexpr double kSameContact = 1e-6;
 /** Sine of the angle between ray and tangent plane below which a hit is tangential. */
 constexpr double kTangential = 1e-6;
 
-/** The same where two common points could not be told apart. */
+/** Sine below which hits within kSameContact are one contact with the surface. */
 constexpr double kContact = 1e-3;
 
 /** Whether the map of the first two components is one-to-one: the cross products of all
@@ -268,12 +268,13 @@ RaySearch::mergeEqual()
   Eigen::Vector3d previous = Eigen::Vector3d::Zero();
   for (const RayHit& hit : hits_) {
     const bool contact =
-        !merged.empty() && (hit.tangential || merged.back().tangential);
+        sine(hit) <= kContact || (!merged.empty() && sine(merged.back()) <= kContact);
     const double same = (contact ? kSameContact : kSamePoint) * tree_.size();
     if (merged.empty() || (hit.point - previous).norm() > same)
       merged.push_back(hit);
     else if (contact && sine(hit) < sine(merged.back()))
       merged.back() = hit;
+    merged.back().tangential |= hit.tangential;
     previous = hit.point;
   }
   hits_ = std::move(merged);

@@ -37,9 +37,9 @@ struct RayHit {
   double u = 0.0;
   double v = 0.0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero(); /**< \brief S(u, v) */
-  bool tangential =
-      false; /**< \brief The ray touches the surface here (angle between
-                ray and tangent plane below 1e-6), or there is no normal. */
+  /** \brief The angle between ray and tangent plane is below 1e-6, or below 1e-3 where
+   * two hits cannot be told apart; also where there is no normal. */
+  bool tangential = false;
 };
 
 /** \brief Intersects rays with a surface.
@@ -61,10 +61,13 @@ public:
   /** \brief All common points in the order of t.
    *
    * A common point is reported once, also on a seam, at a pole or where the surface
-   * crosses itself; two that are closer than 1e-9 times the size of the surface (1e-6
-   * if tangential) count as one. Surfaces as near as 1e-10 of their size count as
-   * touched. A stretch of the ray within the surface gives a dense sequence of
-   * tangential hits. \throws std::invalid_argument if the ray is not finite, the
+   * crosses itself; two that are closer than 1e-9 times the size of the surface count
+   * as one. Surfaces as near as 1e-12 of their size count as touched, and the stretch
+   * over which the ray stays that near, about 1e-6 of the size, is one contact. A
+   * longer stretch of the ray within the surface gives a dense sequence of tangential
+   * hits.
+   *
+   * \throws std::invalid_argument if the ray is not finite, the
    * direction is zero or the range of t is empty or NaN */
   std::vector<RayHit>
   intersect(const Ray& ray) const;
