@@ -60,6 +60,29 @@ isInjective(const BezierPatch& patch)
   return true;
 }
 
+/** Rotation of the first two components along the longest diagonal of a piece: seen
+ * along a ray that grazes it a piece is a thin strip, which only a box along the strip
+ * tells from the ray. */
+Eigen::Matrix3d
+thinFrame(const BezierPatch& patch)
+{
+  const int p = patch.degree_u;
+  const int q = patch.degree_v;
+  const Eigen::Vector2d rising =
+      (patch.cartesian(p, q) - patch.cartesian(0, 0)).head<2>();
+  const Eigen::Vector2d falling =
+      (patch.cartesian(p, 0) - patch.cartesian(0, q)).head<2>();
+  const Eigen::Vector2d& longer =
+      rising.squaredNorm() > falling.squaredNorm() ? rising : falling;
+  const double length = longer.norm();
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+  if (length > 0.0) {
+    frame.topLeftCorner<1, 2>() = longer.transpose() / length;
+    frame.block<1, 2>(1, 0) << -longer.y() / length, longer.x() / length;
+  }
+  return frame;
+}
+
 } // namespace
 
 RaySearch::RaySearch(const NurbsSurface& surface,
@@ -159,12 +182,13 @@ RaySearch::solveLeaf(int leaf)
 RaySearch::Content
 RaySearch::contentOf(const BezierPatch& patch) const
 {
+  const Eigen::Matrix3d frame = thinFrame(patch);
   Eigen::Array3d low =
       Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low;
   for (int i = 0; i <= patch.degree_u; ++i)
     for (int j = 0; j <= patch.degree_v; ++j) {
-      const Eigen::Array3d point = patch.cartesian(i, j);
+      const Eigen::Array3d point = frame * patch.cartesian(i, j);
       low = low.min(point);
       high = high.max(point);
     }
