@@ -10,9 +10,9 @@ namespace nurbs {
 
 /** \brief Raise a row of derivatives by one degree (equation 2.7): \a scaled holds
  * degree * row[r] / (length of the support of function r). */
-template <int Degree>
-inline void
-differences(const double* scaled, double* row)
+template <int Degree, typename Real, typename Row>
+[[gnu::always_inline]] inline void
+differences(const Real* scaled, Row& row)
 {
   row[0] = -scaled[0];
   for (int r = 1; r < Degree; ++r)
@@ -22,23 +22,24 @@ differences(const double* scaled, double* row)
 
 /** \brief Basis functions of a degree known at compile time and their derivatives up to
  * \a Order <= 2 (algorithm A2.3 unrolled; each knot difference is divided by once).
+ * \tparam Real double, or a pack of doubles for as many parameters at once
  * \param[in] knot pointer to the first knot of the span
  * \param[in] u parameter
  * \param[out] basis basis[k][r] is the k-th derivative of the r-th function; an array
- *             or pointers to rows
  */
-template <int Degree, int Order, typename Basis>
-inline void
-fixedDegreeBasis(const double* knot, double u, Basis& basis)
+template <int Degree, int Order, typename Real, typename Basis>
+[[gnu::always_inline]] inline void
+fixedDegreeBasis(const Real* knot, const Real& u, Basis& basis)
 {
-  double values[Degree + 1] = {1.0};
-  double low_slopes[Degree + 1] = {0.0}; // of the functions one degree below
+  Real values[Degree + 1] = {Real{} + 1.0};
+  Real low_slopes[Degree + 1] = {}; // of the functions one degree below
   for (int d = 1; d <= Degree; ++d) {
-    double inverse[Degree];
-    double scaled[Degree];
+    const double degree = d;
+    Real inverse[Degree];
+    Real scaled[Degree];
     for (int r = 0; r < d; ++r) {
       inverse[r] = 1.0 / (knot[r + 1] - knot[1 - d + r]);
-      scaled[r] = d * values[r] * inverse[r];
+      scaled[r] = degree * values[r] * inverse[r];
     }
     if constexpr (Order >= 2 && Degree >= 2)
       if (d == Degree - 1)
@@ -48,13 +49,13 @@ fixedDegreeBasis(const double* knot, double u, Basis& basis)
         differences<Degree>(scaled, basis[1]);
       if constexpr (Order >= 2) {
         for (int r = 0; r < d; ++r)
-          scaled[r] = d * low_slopes[r] * inverse[r];
+          scaled[r] = degree * low_slopes[r] * inverse[r];
         differences<Degree>(scaled, basis[2]);
       }
     }
-    double saved = 0.0;
+    Real saved = {};
     for (int r = 0; r < d; ++r) {
-      const double ratio = values[r] * inverse[r];
+      const Real ratio = values[r] * inverse[r];
       values[r] = saved + (knot[r + 1] - u) * ratio;
       saved = (u - knot[1 - d + r]) * ratio;
     }
@@ -65,9 +66,9 @@ fixedDegreeBasis(const double* knot, double u, Basis& basis)
 }
 
 /** \brief The same for a degree known at run time: 1..kMaxDegree. */
-template <int Order, typename Basis>
-inline void
-anyDegreeBasis(int degree, const double* knot, double u, Basis& basis)
+template <int Order, typename Real, typename Basis>
+[[gnu::always_inline]] inline void
+anyDegreeBasis(int degree, const Real* knot, const Real& u, Basis& basis)
 {
   static_assert(kMaxDegree == 9, "one case per degree");
   switch (degree) {

@@ -142,8 +142,12 @@ NurbsSurface::evaluateJet1(double u, double v) const
   const double scale = 1.0 / h.value(3);
   SurfaceJet1 result;
   result.position = scale * h.value.head<3>();
-  result.du = scale * (h.du.head<3>() - h.du(3) * result.position);
-  result.dv = scale * (h.dv.head<3>() - h.dv(3) * result.position);
+  result.du = scale * h.du.head<3>();
+  result.dv = scale * h.dv.head<3>();
+  if (!rational_)
+    return result;
+  result.du -= scale * h.du(3) * result.position;
+  result.dv -= scale * h.dv(3) * result.position;
   return result;
 }
 
