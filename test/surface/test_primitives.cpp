@@ -272,9 +272,9 @@ TEST(Primitives, polesAreDegenerateAndHaveANormal)
   EXPECT_TRUE(isDegenerate(hat, SurfaceBorder::VMax, 1e-14));
   for (int n = 0; n < 50; ++n) {
     const double u = random.inDomain(ball.knotsU());
-    EXPECT_LT((ball.normal(u, 0.5 * kPi) - axis).norm(), 1e-8);
-    EXPECT_LT((ball.normal(u, -0.5 * kPi) + axis).norm(), 1e-8);
-    EXPECT_NEAR(hat.normal(u, 1.0).dot(axis), 2.0 / std::sqrt(5.0), 1e-8);
+    EXPECT_LT((ball.normal(u, 0.5 * kPi) - axis).norm(), 1e-12);
+    EXPECT_LT((ball.normal(u, -0.5 * kPi) + axis).norm(), 1e-12);
+    EXPECT_NEAR(hat.normal(u, 1.0).dot(axis), 2.0 / std::sqrt(5.0), 1e-12);
   }
   EXPECT_FALSE(
       isDegenerate(sphere(frame, 2.0, {}, {-1.0, 1.0}), SurfaceBorder::VMax, 0.1));
