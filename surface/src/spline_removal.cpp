@@ -3,6 +3,8 @@
 
 #include "homogeneous_spline.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
