@@ -28,11 +28,26 @@ averagedChordParameters(const std::vector<NurbsCurve3>& sections)
     if (chords.sum() > 0.0)
       steps += chords / chords.sum();
   }
+  if (!(steps.minCoeff() > 0.0))
+    throw std::invalid_argument("loftedSurface: neighbouring sections coincide");
   std::vector<double> parameters(sections.size(), 0.0);
   for (Eigen::Index k = 0; k < last; ++k)
     parameters[k + 1] = parameters[k] + steps(k) / steps.sum();
   parameters.back() = 1.0;
   return parameters;
+}
+
+/** A common factor of the weights does not change a section, but would change the
+ * surface between the sections: make the mean weight 1. */
+std::vector<NurbsCurve3>
+withMeanWeightOne(const std::vector<NurbsCurve3>& curves)
+{
+  std::vector<NurbsCurve3> result;
+  for (const NurbsCurve3& curve : curves)
+    result.emplace_back(curve.knots(),
+                        curve.homogeneousPoints() /
+                            curve.homogeneousPoints().row(3).mean());
+  return result;
 }
 
 void
@@ -42,8 +57,7 @@ requireIncreasing(const std::vector<double>& parameters, std::size_t sections)
     throw std::invalid_argument("loftedSurface: one parameter per section is needed");
   for (std::size_t k = 0; k + 1 < parameters.size(); ++k)
     if (!(parameters[k] < parameters[k + 1]))
-      throw std::invalid_argument("loftedSurface: neighbouring sections coincide, or "
-                                  "their parameters do not increase");
+      throw std::invalid_argument("loftedSurface: the parameters do not increase");
 }
 
 /** Clamped knots by averaging parameters (equation 9.8): every basis function then has
@@ -88,7 +102,7 @@ loftedSurface(const std::vector<NurbsCurve3>& sections,
 {
   if (degree < 1 || sections.size() < static_cast<std::size_t>(degree) + 1)
     throw std::invalid_argument("loftedSurface: needs at least degree + 1 sections");
-  const std::vector<NurbsCurve3> curves = makeCompatible(sections);
+  const std::vector<NurbsCurve3> curves = withMeanWeightOne(makeCompatible(sections));
   const std::vector<double> v =
       parameters.empty() ? averagedChordParameters(curves) : parameters;
   requireIncreasing(v, curves.size());

@@ -53,8 +53,10 @@ extrudedSurface(const NurbsCurve3& profile, const Eigen::Vector3d& direction);
  *
  * u is the parameter of the sections; S(u, v_k) is section k exactly. Without
  * parameters, v_k are averaged chord lengths on [0, 1] (equation 10.8); knots follow
- * from them by averaging (9.8). Rational sections are interpolated in homogeneous
- * space. O(k³ + k² n) for k sections of n control points.
+ * from them by averaging (9.8). Rational sections are scaled to a mean weight of 1 and
+ * interpolated in homogeneous space, where neighbours with very different weights can
+ * ask for a negative one in between; a lower degree helps. O(k³ + k² n) for k sections
+ * of n control points.
  * \param[in] sections at least degree + 1 curves, in order
  * \param[in] degree degree across the sections, v
  * \param[in] parameters one increasing v_k per section, or none
