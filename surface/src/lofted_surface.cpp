@@ -43,6 +43,7 @@ std::vector<NurbsCurve3>
 withMeanWeightOne(const std::vector<NurbsCurve3>& curves)
 {
   std::vector<NurbsCurve3> result;
+  result.reserve(curves.size());
   for (const NurbsCurve3& curve : curves)
     result.emplace_back(curve.knots(),
                         curve.homogeneousPoints() /

@@ -63,13 +63,12 @@ Eigen::Vector3d
 NurbsSurface::normal(double u, double v) const
 {
   const SurfaceJet1 jet = evaluateJet1(u, v);
+  Eigen::Vector3d result = Eigen::Vector3d::Zero();
   if (!isRounding(jet.du, jet.position, knots_u_, u) &&
-      !isRounding(jet.dv, jet.position, knots_v_, v)) {
-    const Eigen::Vector3d regular = unitCross(jet.du, jet.dv);
-    if (!regular.isZero())
-      return regular;
-  }
-  Eigen::Vector3d result = poleNormal(*this, u, v);
+      !isRounding(jet.dv, jet.position, knots_v_, v))
+    result = unitCross(jet.du, jet.dv);
+  if (result.isZero())
+    result = poleNormal(*this, u, v);
   // Both derivatives vanish, or they are parallel: walk towards the middle of the
   // domain until the direction is defined. The step is small enough that the normal is
   // its limit.

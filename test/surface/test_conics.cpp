@@ -59,7 +59,7 @@ TEST_P(ArcLaws, parameterIsTheAngleAtJointsAndMiddles)
   EXPECT_LT((arc.evaluate(range.last) - onCircle(range.last)).norm(), 1e-14);
   for (int n = 0; n < 500; ++n) {
     const double u = random.inDomain(arc.knots());
-    EXPECT_LT((arc.evaluate(u) - onCircle(u)).norm(), 0.0185);
+    EXPECT_LT((arc.evaluate(u) - onCircle(u)).norm(), 0.0161);
   }
 }
 

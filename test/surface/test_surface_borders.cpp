@@ -3,6 +3,7 @@
 //
 // Borders of surfaces: poles, seams and the normal at a pole.
 
+#include <pcl/surface/nurbs/constructions.h>
 #include <pcl/surface/nurbs/primitives.h>
 #include <pcl/surface/nurbs/surface_borders.h>
 
@@ -57,6 +58,19 @@ TEST(SurfaceBorders, fullTurnsCloseAndPartsDoNot)
   // Two poles are two points: closed only within the diameter.
   EXPECT_FALSE(isClosed(sphere(frame, 2.0), Direction::V, 3.9));
   EXPECT_TRUE(isClosed(sphere(frame, 2.0), Direction::V, 4.1));
+}
+
+TEST(SurfaceBorders, commonEndsAloneDoNotClose)
+{
+  // Half of a circle and its diameter.
+  const NurbsCurve3 arc = circularArc(Eigen::Isometry3d::Identity(), 1.0, {0.0, kPi});
+  Eigen::Matrix3Xd ends(3, 2);
+  ends << 1, -1, 0, 0, 0, 0;
+  const NurbsSurface half_disc =
+      ruledSurface(arc, NurbsCurve3::fromControlPoints(KnotVector::bezier(1), ends));
+  EXPECT_FALSE(isClosed(half_disc, Direction::V, 0.1));
+  EXPECT_TRUE(isDegenerate(half_disc, SurfaceBorder::UMin, 1e-15));
+  EXPECT_TRUE(isDegenerate(half_disc, SurfaceBorder::UMax, 1e-15));
 }
 
 TEST(SurfaceBorders, bordersAreTheIsoCurves)

@@ -34,7 +34,7 @@ frameFromAxis(const Eigen::Vector3d& origin, const Eigen::Vector3d& axis);
  * C(u) is rational of degree 2 with one segment per quarter turn or part of it. The
  * domain is the range of the angle (eccentric anomaly) and the parameter equals the
  * angle at the joints and in the middle of each segment; in between the two differ by
- * less than 0.01 rad. O(1).
+ * at most 0.0161 rad. O(1).
  * \param[in] frame centre and directions of the two semi-axes
  * \param[in] radius_x semi-axis along the x axis of the frame, metres
  * \param[in] radius_y semi-axis along the y axis of the frame, metres

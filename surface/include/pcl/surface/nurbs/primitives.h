@@ -13,7 +13,7 @@ namespace nurbs {
  * Exact analytic surfaces. Each is placed by a rigid frame (frameFromAxis() makes one
  * from an origin and an axis), lengths are in metres and angles in radians. Parameters
  * carry the same units: a length parameter is exact, an angle parameter equals the
- * angle at the knots and in the middle of each span and is within 0.01 rad of it in
+ * angle at the knots and in the middle of each span and is within 0.0161 rad of it in
  * between. The normal S_u x S_v points away from the axis or centre. Surfaces of
  * revolution start at the x axis of the frame and turn counter-clockwise about z. All
  * are O(1) and throw std::invalid_argument for a frame that is not rigid, a size that
