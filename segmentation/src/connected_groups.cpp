@@ -84,7 +84,9 @@ labelGroups(const KeptEdges& edges,
 
 /** Let the groups grow into the folds, all at the same speed. */
 void
-shareFolds(const KeptEdges& edges, const std::vector<std::uint8_t>& fold, Labels& labels)
+shareFolds(const KeptEdges& edges,
+           const std::vector<std::uint8_t>& fold,
+           Labels& labels)
 {
   std::vector<std::size_t> front;
   for (std::size_t i = 0; i < labels.size(); ++i)

@@ -32,8 +32,8 @@ public:
   {
   }
 
-  /** The slope of a line fit over m points errs by noise sqrt(12 / m^3), and averaging m
-   * such lines divides by sqrt(m). */
+  /** The slope of a line fit over m points errs by noise sqrt(12 / m^3), and averaging
+   * m such lines divides by sqrt(m). */
   int
   operator()(std::size_t cell) const
   {
@@ -112,8 +112,7 @@ smoothed(const Vectors& vectors,
       const int half = window(cell);
       const auto a = static_cast<std::size_t>(std::max(k - half, 0));
       const auto b = static_cast<std::size_t>(std::min(k + half, last) + 1);
-      result[cell] =
-          ((sums[b] - sums[a]) / static_cast<double>(b - a)).cast<float>();
+      result[cell] = ((sums[b] - sums[a]) / static_cast<double>(b - a)).cast<float>();
     }
   });
   return result;

@@ -143,8 +143,8 @@ GridGraph::numEdges() const
 {
   std::size_t edges = 0;
   for (int d = 0; d < directions_; ++d)
-    edges += cells_ - static_cast<std::size_t>(std::count(
-                          target(d).begin(), target(d).end(), kNone));
+    edges += cells_ - static_cast<std::size_t>(
+                          std::count(target(d).begin(), target(d).end(), kNone));
   return edges;
 }
 

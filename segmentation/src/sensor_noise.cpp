@@ -38,9 +38,9 @@ deviation(const GridPoints& points, std::size_t middle, std::size_t step, bool i
   const float before = points.depth[middle - step];
   const float here = points.depth[middle];
   const float after = points.depth[middle + step];
-  const float bend =
-      inverse ? here * here * (1.0F / before - 2.0F / here + 1.0F / after)
-              : before - 2.0F * here + after;
+  const float bend = inverse
+                         ? here * here * (1.0F / before - 2.0F / here + 1.0F / after)
+                         : before - 2.0F * here + after;
   return std::abs(bend) / std::sqrt(6.0F);
 }
 

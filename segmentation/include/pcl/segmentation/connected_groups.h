@@ -43,8 +43,8 @@ struct ConnectedGroupsOptions {
  * \param[in] options thresholds
  * \param[out] labels per cell: 0 = none, 1.. by decreasing size of the group
  * \return number of groups
- * \throws std::invalid_argument when the graph belongs to other points or a threshold is
- *         not positive
+ * \throws std::invalid_argument when the graph belongs to other points or a threshold
+ * is not positive
  */
 PCL_NURBS_SEGMENTATION_EXPORT std::uint32_t
 connectedGroups(const GridPoints& points,

@@ -34,8 +34,8 @@ struct DistanceWeight {
 };
 
 /** \brief Weighted lattice graph over the points of a grid: one node per cell, edges
- * between neighbours in rows, columns and diagonals, over the seam of a grid that wraps,
- * and over at most geometry.max_gap - 1 empty cells.
+ * between neighbours in rows, columns and diagonals, over the seam of a grid that
+ * wraps, and over at most geometry.max_gap - 1 empty cells.
  *
  * Edges are kept by direction in dense arrays: edge (d, i) joins cell i with the next
  * point in direction d. Following one direction from edge to edge walks a straight line
