@@ -15,6 +15,9 @@ namespace {
 
 using Labels = std::vector<std::uint32_t>;
 
+/** Cells that groups stay away from folds and jumps while they form. */
+constexpr int kHeldBack = 2;
+
 /** Disjoint sets of cells; the root of a set is its first cell. */
 class CellSets {
 public:
@@ -152,8 +155,13 @@ connectedGroups(const GridPoints& points,
     orderBySize(count, labels);
     return count;
   }
+  // Where a fold runs into a jump both grow faint: holding groups back from either
+  // keeps them from leaking through.
   const std::vector<std::uint8_t> fold =
-      findCreases(points, edges, noise, options.crease_angle);
+      nearBreaks(points.geometry,
+                 edges,
+                 findCreases(points, edges, noise, options.crease_angle),
+                 kHeldBack);
   const auto smooth = [&](std::size_t i) { return points.valid(i) && fold[i] == 0; };
   std::uint32_t count = labelGroups(edges, options.min_size, smooth, 0, labels);
   shareFolds(edges, fold, labels);

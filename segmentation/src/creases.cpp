@@ -130,15 +130,17 @@ turn(const Vectors& normals, const Run& run, int a, int b)
 }
 
 /** Turn of the normals across position k of a run less the mean turn, over a stretch of
- * the same length, on either side. */
+ * the same length, on either side; zero when the turn itself is not above \a enough. */
 float
-excessTurn(const Vectors& normals, const Run& run, int k, int half)
+excessTurn(const Vectors& normals, const Run& run, int k, int half, float enough)
 {
   const int last = static_cast<int>(run.size()) - 1;
   const auto inside = [last](int where) { return std::clamp(where, 0, last); };
   const int a = inside(k - half);
   const int b = inside(k + half);
   const float across = turn(normals, run, a, b);
+  if (across <= enough)
+    return 0.0F; // whatever the sides say, it is no fold
   const auto length = static_cast<float>(b - a);
   float beside = 0.0F;
   int sides = 0;
@@ -187,11 +189,60 @@ findCreases(const GridPoints& points,
     edges.forEachRun(direction, [&](const Run& run) {
       for (std::size_t k = 0; k < run.size(); ++k)
         if (points.valid(run[k]) &&
-            excessTurn(normals, run, static_cast<int>(k), window(run[k])) > chord)
+            excessTurn(normals, run, static_cast<int>(k), window(run[k]), chord) >
+                chord)
           crease[run[k]] = 1;
     });
   }
   return crease;
+}
+
+std::vector<std::uint8_t>
+nearBreaks(const GridGeometry& grid,
+           const KeptEdges& edges,
+           const std::vector<std::uint8_t>& crease,
+           int radius)
+{
+  std::vector<std::uint8_t> steps(crease.size());
+  const auto far = static_cast<std::uint8_t>(radius + 1);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    steps[i] = crease[i] != 0 || edges.isCut(i) ? 0 : far;
+  // Chessboard distance in two sweeps.
+  const auto width = static_cast<std::size_t>(grid.width);
+  const auto sweep = [&](std::size_t i, std::size_t column, bool inner, auto at) {
+    std::uint8_t least = steps[i];
+    const auto look = [&](std::size_t j) {
+      least = std::min<std::uint8_t>(least, static_cast<std::uint8_t>(steps[j] + 1));
+    };
+    if (column > 0)
+      look(at(i, 1, 0));
+    if (inner)
+      look(at(i, 0, 1));
+    if (inner && column > 0)
+      look(at(i, 1, 1));
+    if (inner && column + 1 < width)
+      look(at(i, -1, 1));
+    steps[i] = least;
+  };
+  const auto offset = [width](int columns, int rows) {
+    return static_cast<std::ptrdiff_t>(width) * rows + columns;
+  };
+  const auto back = [&](std::size_t i, int columns, int rows) {
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) -
+                                    offset(columns, rows));
+  };
+  const auto ahead = [&](std::size_t i, int columns, int rows) {
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) +
+                                    offset(columns, rows));
+  };
+  const std::size_t cells = steps.size();
+  for (std::size_t i = 0; i < cells; ++i)
+    sweep(i, i % width, i >= width, back);
+  for (std::size_t i = cells; i-- > 0;)
+    sweep(i, width - 1 - i % width, i + width < cells, ahead);
+  for (std::uint8_t& step : steps)
+    step = step <= radius ? 1 : 0;
+  return steps;
 }
 
 } // namespace nurbs

@@ -21,5 +21,12 @@ findCreases(const GridPoints& points,
             const SensorNoise& noise,
             float angle);
 
+/** Marks cells at most \a radius cells from a crease or a removed edge. */
+std::vector<std::uint8_t>
+nearBreaks(const GridGeometry& grid,
+           const KeptEdges& edges,
+           const std::vector<std::uint8_t>& crease,
+           int radius);
+
 } // namespace nurbs
 } // namespace pcl

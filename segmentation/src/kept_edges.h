@@ -33,6 +33,16 @@ public:
     return kept_[static_cast<std::size_t>(direction)][cell] != 0;
   }
 
+  /** Whether an edge that begins at this cell was removed. */
+  bool
+  isCut(std::size_t cell) const
+  {
+    for (int d = 0; d < graph_.numDirections(); ++d)
+      if (graph_.target(d)[cell] != GridGraph::kNone && !keeps(d, cell))
+        return true;
+    return false;
+  }
+
   /** Call visit(neighbour) for every cell a kept edge joins to this one. */
   template <typename Visit>
   void

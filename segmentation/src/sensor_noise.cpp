@@ -21,6 +21,8 @@ constexpr double kMedianToSigma = 1.4826;
 struct Bin {
   std::vector<float> depths;
   std::vector<float> deviations; // depth units, |second difference| / sqrt(6)
+  std::vector<float> steps;      // between next neighbours of different depth
+  std::size_t ties = 0;          // next neighbours of the same depth
 };
 
 double
@@ -73,8 +75,24 @@ collectBins(const GridPoints& points, float nearest, float farthest)
       Bin& bin = bins[static_cast<std::size_t>(std::clamp(where, 0.0F, kBins - 1.0F))];
       bin.depths.push_back(points.depth[i]);
       bin.deviations.push_back(value);
+      const float change = std::abs(points.depth[i + 1] - points.depth[i]);
+      if (change > 0.0F)
+        bin.steps.push_back(change);
+      else if (change == 0.0F)
+        ++bin.ties;
     }
   return bins;
+}
+
+/** Deviation of a bin. Depths that come in steps often tie; most of their second
+ * differences vanish although each errs by up to half a step. */
+double
+sigmaOf(Bin& bin)
+{
+  const double spread = kMedianToSigma * median(bin.deviations);
+  if (bin.steps.empty() || bin.ties < bin.steps.size() / 4)
+    return spread;
+  return std::hypot(spread, median(bin.steps) / std::sqrt(12.0));
 }
 
 /** Weighted line sigma = a + b depth^2 through the bins, neither term negative. */
@@ -87,7 +105,7 @@ fitBins(std::vector<Bin>& bins, double fallback)
     if (bin.deviations.size() < kEnough)
       continue;
     const double depth = median(bin.depths);
-    const double sigma = kMedianToSigma * median(bin.deviations);
+    const double sigma = sigmaOf(bin);
     const Eigen::Vector2d row(1.0, depth * depth);
     // Relative errors count, so that near bins are not drowned by far ones.
     const double weight = std::sqrt(static_cast<double>(bin.deviations.size())) /
