@@ -16,7 +16,7 @@ namespace {
 using Labels = std::vector<std::uint32_t>;
 
 /** Cells that groups stay away from folds and jumps while they form. */
-constexpr int kHeldBack = 2;
+constexpr int kHeldBack = 3;
 
 /** Disjoint sets of cells; the root of a set is its first cell. */
 class CellSets {
@@ -39,6 +39,8 @@ public:
   void
   join(std::uint32_t a, std::uint32_t b)
   {
+    if (parent_[a] == parent_[b])
+      return;
     a = find(a);
     b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);
@@ -61,13 +63,18 @@ labelGroups(const KeptEdges& edges,
   const GridGraph& graph = edges.graph();
   const std::size_t cells = graph.numCells();
   CellSets sets(cells);
-  for (int d = 0; d < graph.numDirections(); ++d)
-    for (std::size_t i = 0; i < cells; ++i)
-      if (edges.keeps(d, i) && member(i)) {
-        const auto j = static_cast<std::uint32_t>(graph.target(d)[i]);
-        if (member(j))
-          sets.join(static_cast<std::uint32_t>(i), j);
-      }
+  bool any = false;
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (!member(i))
+      continue;
+    any = true;
+    for (int d = 0; d < graph.numDirections(); ++d)
+      if (edges.keeps(d, i) && member(static_cast<std::size_t>(graph.target(d)[i])))
+        sets.join(static_cast<std::uint32_t>(i),
+                  static_cast<std::uint32_t>(graph.target(d)[i]));
+  }
+  if (!any)
+    return last;
   std::vector<std::uint32_t> sizes(cells, 0);
   for (std::size_t i = 0; i < cells; ++i)
     if (member(i))
@@ -92,8 +99,14 @@ shareFolds(const KeptEdges& edges,
            Labels& labels)
 {
   std::vector<std::size_t> front;
+  const auto at_fold = [&](std::size_t cell) {
+    bool found = false;
+    edges.forEachNeighbour(
+        cell, [&](std::size_t neighbour) { found = found || fold[neighbour] != 0; });
+    return found;
+  };
   for (std::size_t i = 0; i < labels.size(); ++i)
-    if (labels[i] != 0)
+    if (labels[i] != 0 && at_fold(i))
       front.push_back(i);
   for (std::size_t next = 0; next < front.size(); ++next) {
     const std::size_t cell = front[next];

@@ -124,7 +124,7 @@ turn(const Vectors& normals, const Run& run, int a, int b)
 {
   const Eigen::Vector3f& first = normals[run[static_cast<std::size_t>(a)]];
   const Eigen::Vector3f& second = normals[run[static_cast<std::size_t>(b)]];
-  if (first.isZero() || second.isZero())
+  if (first.squaredNorm() == 0.0F || second.squaredNorm() == 0.0F)
     return 0.0F;
   return (first - second).norm();
 }

@@ -15,6 +15,7 @@ namespace nurbs {
 namespace {
 
 constexpr double kTurn = 2.0 * M_PI;
+constexpr std::size_t kSample = 20000;
 constexpr double kWorst = std::numeric_limits<double>::infinity();
 
 double
@@ -74,13 +75,16 @@ class Candidate {
 public:
   Candidate(const PointList& points, const GridGeometry& geometry) : grid_(geometry)
   {
+    // Pairs of neighbours from every row are enough.
+    const std::size_t stride = 2 * (points.size() / kSample + 1);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!points[i].allFinite())
+      const std::size_t column = i % static_cast<std::size_t>(grid_.width);
+      if (column % stride > 1 || !points[i].allFinite())
         continue;
       const Eigen::Vector3d chart = grid_.chart(points[i].cast<double>());
       if (!chart.allFinite() || (isAngular() && chart.z() <= 0.0))
         continue;
-      add(columns_, i % static_cast<std::size_t>(grid_.width), chart.x());
+      add(columns_, column, chart.x());
       add(rows_, i / static_cast<std::size_t>(grid_.width), chart.y());
     }
     if (grid_.projection == GridProjection::spherical)

@@ -21,6 +21,7 @@ constexpr float kTwoSidedSpacings = 1.5F;
 class JumpTest {
 public:
   JumpTest(const GridPoints& points,
+           const std::vector<float>& inverse_depth,
            const GridGraph& graph,
            const SensorNoise& noise,
            float sigmas,
@@ -28,10 +29,10 @@ public:
       : depth_(points.depth),
         target_(graph.target(direction)),
         source_(graph.source(direction)),
+        inverse_depth_(inverse_depth),
         spacing_(points.geometry, direction),
         noise_(noise),
-        sigmas_(sigmas * std::sqrt(6.0F)), // deviation of a second difference
-        inverse_(isInverseDepthGrid(points.geometry))
+        sigmas_(sigmas * std::sqrt(6.0F)) // deviation of a second difference
   {
   }
 
@@ -61,21 +62,21 @@ private:
   {
     if (before == GridGraph::kNone)
       return -1.0F;
-    const float first = depth_[static_cast<std::size_t>(before)];
-    const float middle = depth_[here];
-    const float last = depth_[after];
-    if (!inverse_)
-      return std::abs(first - 2.0F * middle + last);
-    return std::abs(middle * last * (1.0F / first + 1.0F / last) - 2.0F * last);
+    const auto first = static_cast<std::size_t>(before);
+    if (inverse_depth_.empty())
+      return std::abs(depth_[first] - 2.0F * depth_[here] + depth_[after]);
+    const float bend =
+        inverse_depth_[first] - 2.0F * inverse_depth_[here] + inverse_depth_[after];
+    return std::abs(bend) * depth_[here] * depth_[after];
   }
 
   const std::vector<float>& depth_;
   const std::vector<std::int32_t>& target_;
   const std::vector<std::int32_t>& source_;
+  const std::vector<float>& inverse_depth_; // empty where depth itself is linear
   GridSpacing spacing_;
   SensorNoise noise_;
   float sigmas_;
-  bool inverse_;
 };
 
 } // namespace
@@ -86,10 +87,16 @@ KeptEdges::KeptEdges(const GridPoints& points,
                      const ConnectedGroupsOptions& options)
     : graph_(graph)
 {
+  std::vector<float> inverse_depth;
+  if (isInverseDepthGrid(points.geometry)) {
+    inverse_depth.reserve(points.size());
+    for (const float depth : points.depth)
+      inverse_depth.push_back(1.0F / depth);
+  }
   for (int d = 0; d < graph.numDirections(); ++d) {
     std::vector<std::uint8_t>& kept = kept_[static_cast<std::size_t>(d)];
     kept.assign(graph.numCells(), 0);
-    const JumpTest jumps(points, graph, noise, options.jump_sigmas, d);
+    const JumpTest jumps(points, inverse_depth, graph, noise, options.jump_sigmas, d);
     const std::vector<std::int32_t>& target = graph.target(d);
     const std::vector<float>& weight = graph.weight(d);
     for (std::size_t i = 0; i < kept.size(); ++i)

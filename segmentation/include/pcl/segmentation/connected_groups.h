@@ -22,7 +22,7 @@ struct ConnectedGroupsOptions {
   bool split_creases = true;
   /** Angle (radians) the normals must turn by over the fold, in excess of how the
    * surface curves beside it. */
-  float crease_angle = 0.6F;
+  float crease_angle = 0.5F;
   /** Groups of fewer points are dropped. */
   std::size_t min_size = 100;
 };
