@@ -240,6 +240,52 @@ refineRaster(GridGeometry grid, const ChartList& charts, const Rings& rings)
   return layout;
 }
 
+/** Points the projection can show: finite and, for a sensor, not at its own place,
+ * where lasers put pulses that never came back. */
+std::size_t
+countReadings(const PointList& points, const GridGeometry& grid)
+{
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3f& point) {
+        return point.allFinite() && !(isInverseDepthGrid(grid) && point.isZero(0.0F));
+      }));
+}
+
+GridLayout
+layOut(const PointList& points, GridProjection projection, const Rings& rings)
+{
+  GridGeometry grid = rasterOf(projection, points);
+  if (rings)
+    setRings(grid, rings);
+  GridLayout layout = refineRaster(grid, chartsOf(points, grid, 1), rings);
+  const auto placed = static_cast<std::size_t>(std::count_if(
+      layout.cell_point.begin(), layout.cell_point.end(), [](std::int32_t point) {
+        return point >= 0;
+      }));
+  layout.dropped = countReadings(points, grid) - placed;
+  return layout;
+}
+
+/** The layout in the projection the data ask for, or in the next best one when that
+ * loses too much: submaps of several scans have layers in every projection. */
+GridLayout
+layOutByData(const PointList& points)
+{
+  const GridProjection first = chooseProjection(points);
+  GridLayout best = layOut(points, first, {});
+  for (const GridProjection other :
+       {GridProjection::spherical, GridProjection::plane}) {
+    if (best.dropped * 10 < points.size())
+      break;
+    if (other == first)
+      continue;
+    GridLayout layout = layOut(points, other, {});
+    if (layout.dropped < best.dropped)
+      best = std::move(layout);
+  }
+  return best;
+}
+
 } // namespace
 
 GridLayout
@@ -247,30 +293,16 @@ layOutScattered(const PointList& points, std::optional<GridProjection> projectio
 {
   if (projection == GridProjection::lattice)
     throw std::invalid_argument("layOutScattered: points have no lattice of their own");
-  Rings rings;
   if (!projection || projection == GridProjection::spherical) {
     const GridGeometry sphere = rasterOf(GridProjection::spherical, points);
     const ChartList charts = chartsOf(points, sphere, 1);
-    rings = ringsFromOrder(charts);
+    Rings rings = ringsFromOrder(charts);
     if (!rings)
       rings = ringsFromAngles(charts);
     if (rings)
-      projection = GridProjection::spherical;
+      return layOut(points, GridProjection::spherical, rings);
   }
-  GridGeometry grid =
-      rasterOf(projection ? *projection : chooseProjection(points), points);
-  if (rings)
-    setRings(grid, rings);
-  GridLayout layout = refineRaster(grid, chartsOf(points, grid, 1), rings);
-  std::size_t finite = 0;
-  for (const Eigen::Vector3f& point : points)
-    finite += point.allFinite() ? 1 : 0;
-  const auto placed = static_cast<std::size_t>(std::count_if(
-      layout.cell_point.begin(), layout.cell_point.end(), [](std::int32_t point) {
-        return point >= 0;
-      }));
-  layout.dropped = finite - placed;
-  return layout;
+  return projection ? layOut(points, *projection, {}) : layOutByData(points);
 }
 
 } // namespace nurbs

@@ -22,7 +22,7 @@ using PointList = std::vector<Eigen::Vector3f>;
 struct GridLayout {
   GridGeometry geometry;
   std::vector<std::int32_t> cell_point; /**< index of the point per cell, -1 = none */
-  std::size_t dropped = 0;              /**< finite points that found no cell */
+  std::size_t dropped = 0;              /**< readings that found no cell */
 };
 
 /** \brief Find the raster of an organized cloud: of a pinhole camera by least squares
