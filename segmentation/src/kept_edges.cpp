@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "kept_edges.h"
+
+#include "grid_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+// A fold between two planes bends the line by up to a few spacings at the fold itself,
+// a jump bends it on both of its sides.
+constexpr float kOneSidedSpacings = 6.0F;
+constexpr float kTwoSidedSpacings = 1.5F;
+
+/** Second differences of depth along the lines of one direction. */
+class JumpTest {
+public:
+  JumpTest(const GridPoints& points,
+           const std::vector<float>& inverse_depth,
+           const GridGraph& graph,
+           const SensorNoise& noise,
+           float sigmas,
+           int direction)
+      : depth_(points.depth),
+        target_(graph.target(direction)),
+        source_(graph.source(direction)),
+        inverse_depth_(inverse_depth),
+        spacing_(points.geometry, direction),
+        noise_(noise),
+        sigmas_(sigmas * std::sqrt(6.0F)) // deviation of a second difference
+  {
+  }
+
+  bool
+  operator()(std::size_t i) const
+  {
+    const auto j = static_cast<std::size_t>(target_[i]);
+    const float near = std::min(depth_[i], depth_[j]);
+    const float tolerance = sigmas_ * static_cast<float>(noise_.sigma(near));
+    const float spacing = spacing_(near);
+    float least = std::numeric_limits<float>::infinity();
+    float most = 0.0F;
+    for (const float bend : {bendAt(source_[i], i, j), bendAt(target_[j], j, i)})
+      if (bend >= 0.0F) {
+        least = std::min(least, bend);
+        most = std::max(most, bend);
+      }
+    return most > kOneSidedSpacings * spacing + tolerance ||
+           (std::isfinite(least) && least > kTwoSidedSpacings * spacing + tolerance);
+  }
+
+private:
+  /** How far, in depth, a point is from the line through the two before it; negative
+   * when there is no such line. */
+  float
+  bendAt(std::int32_t before, std::size_t here, std::size_t after) const
+  {
+    if (before == GridGraph::kNone)
+      return -1.0F;
+    const auto first = static_cast<std::size_t>(before);
+    if (inverse_depth_.empty())
+      return std::abs(depth_[first] - 2.0F * depth_[here] + depth_[after]);
+    const float bend =
+        inverse_depth_[first] - 2.0F * inverse_depth_[here] + inverse_depth_[after];
+    return std::abs(bend) * depth_[here] * depth_[after];
+  }
+
+  const std::vector<float>& depth_;
+  const std::vector<std::int32_t>& target_;
+  const std::vector<std::int32_t>& source_;
+  const std::vector<float>& inverse_depth_; // empty where depth itself is linear
+  GridSpacing spacing_;
+  SensorNoise noise_;
+  float sigmas_;
+};
+
+} // namespace
+
+KeptEdges::KeptEdges(const GridPoints& points,
+                     const GridGraph& graph,
+                     const SensorNoise& noise,
+                     const ConnectedGroupsOptions& options)
+    : graph_(graph)
+{
+  std::vector<float> inverse_depth;
+  if (isInverseDepthGrid(points.geometry)) {
+    inverse_depth.reserve(points.size());
+    for (const float depth : points.depth)
+      inverse_depth.push_back(1.0F / depth);
+  }
+  for (int d = 0; d < graph.numDirections(); ++d) {
+    std::vector<std::uint8_t>& kept = kept_[static_cast<std::size_t>(d)];
+    kept.assign(graph.numCells(), 0);
+    const JumpTest jumps(points, inverse_depth, graph, noise, options.jump_sigmas, d);
+    const std::vector<std::int32_t>& target = graph.target(d);
+    const std::vector<float>& weight = graph.weight(d);
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (target[i] != GridGraph::kNone && weight[i] >= options.min_weight)
+        kept[i] = jumps(i) ? 0 : 1;
+  }
+}
+
+} // namespace nurbs
+} // namespace pcl

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#pragma once
+
+#include <pcl/segmentation/connected_groups.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pcl {
+namespace nurbs {
+
+/** Edges of a graph that survive, one flag per direction and cell. */
+class KeptEdges {
+public:
+  /** Keep what is neither of low weight nor over a depth jump. */
+  KeptEdges(const GridPoints& points,
+            const GridGraph& graph,
+            const SensorNoise& noise,
+            const ConnectedGroupsOptions& options);
+
+  const GridGraph&
+  graph() const
+  {
+    return graph_;
+  }
+
+  bool
+  keeps(int direction, std::size_t cell) const
+  {
+    return kept_[static_cast<std::size_t>(direction)][cell] != 0;
+  }
+
+  /** Whether an edge that begins at this cell was removed. */
+  bool
+  isCut(std::size_t cell) const
+  {
+    for (int d = 0; d < graph_.numDirections(); ++d)
+      if (graph_.target(d)[cell] != GridGraph::kNone && !keeps(d, cell))
+        return true;
+    return false;
+  }
+
+  /** Call visit(neighbour) for every cell a kept edge joins to this one. */
+  template <typename Visit>
+  void
+  forEachNeighbour(std::size_t cell, const Visit& visit) const
+  {
+    for (int d = 0; d < graph_.numDirections(); ++d) {
+      if (keeps(d, cell))
+        visit(static_cast<std::size_t>(graph_.target(d)[cell]));
+      const std::int32_t source = graph_.source(d)[cell];
+      if (source != GridGraph::kNone && keeps(d, static_cast<std::size_t>(source)))
+        visit(static_cast<std::size_t>(source));
+    }
+  }
+
+  /** Call visit(cells) for every longest chain of kept edges along a direction. */
+  template <typename Visit>
+  void
+  forEachRun(int direction, const Visit& visit) const
+  {
+    std::vector<std::uint8_t> seen(graph_.numCells(), 0);
+    std::vector<std::size_t> run;
+    const auto walk = [&](std::size_t cell) {
+      run.clear();
+      for (;;) {
+        seen[cell] = 1;
+        run.push_back(cell);
+        if (!keeps(direction, cell))
+          break;
+        cell = static_cast<std::size_t>(graph_.target(direction)[cell]);
+        if (seen[cell] != 0)
+          break;
+      }
+      visit(run);
+    };
+    for (std::size_t cell = 0; cell < seen.size(); ++cell) {
+      const std::int32_t source = graph_.source(direction)[cell];
+      if (source == GridGraph::kNone ||
+          !keeps(direction, static_cast<std::size_t>(source)))
+        walk(cell);
+    }
+    // What is left closes on itself over the seam of a grid that wraps.
+    for (std::size_t cell = 0; cell < seen.size(); ++cell)
+      if (seen[cell] == 0)
+        walk(cell);
+  }
+
+private:
+  const GridGraph& graph_;
+  std::array<std::vector<std::uint8_t>, 4> kept_;
+};
+
+} // namespace nurbs
+} // namespace pcl
