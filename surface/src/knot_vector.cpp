@@ -109,8 +109,15 @@ KnotVector::findSpan(double u) const
   if (u >= *last) // last non-empty span
     return static_cast<int>(std::lower_bound(first, last, *last) - knots_.begin()) - 1;
   if (!(u > *first)) // also NaN, whose evaluation then gives NaN
-    return static_cast<int>(std::upper_bound(first, last, *first) - knots_.begin()) - 1;
-  return static_cast<int>(std::upper_bound(first, last, u) - knots_.begin()) - 1;
+    u = *first;
+  // Last knot <= u, halving without branches: they would be mispredicted half the time.
+  const double* base = knots_.data() + degree_;
+  for (std::ptrdiff_t count = last - first; count > 1;) {
+    const std::ptrdiff_t half = count / 2;
+    base += base[half] <= u ? half : 0;
+    count -= half;
+  }
+  return static_cast<int>(base - knots_.data());
 }
 
 void

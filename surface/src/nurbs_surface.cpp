@@ -12,91 +12,6 @@
 
 namespace pcl {
 namespace nurbs {
-namespace {
-
-/** Homogeneous point and partial derivatives, named like SurfaceJet2. */
-struct HomogeneousJet {
-  Eigen::Vector4d value = Eigen::Vector4d::Zero();
-  Eigen::Vector4d du = Eigen::Vector4d::Zero();
-  Eigen::Vector4d dv = Eigen::Vector4d::Zero();
-  Eigen::Vector4d duu = Eigen::Vector4d::Zero();
-  Eigen::Vector4d duv = Eigen::Vector4d::Zero();
-  Eigen::Vector4d dvv = Eigen::Vector4d::Zero();
-};
-
-/** Tensor-product sum with derivatives up to \a Order (0, 1 or 2) in each direction. */
-template <int Order>
-void
-sumJet(const NurbsSurface& surface,
-       int span_u,
-       int span_v,
-       const BasisDerivatives& basis_u,
-       const BasisDerivatives& basis_v,
-       HomogeneousJet& jet)
-{
-  const int p = surface.knotsU().degree();
-  const int q = surface.knotsV().degree();
-  const int stride = surface.numControlPointsV();
-  for (int i = 0; i <= p; ++i) {
-    const double* column =
-        surface.homogeneousPoints().data() +
-        4 * (static_cast<std::ptrdiff_t>(span_u - p + i) * stride + (span_v - q));
-    Eigen::Vector4d row = Eigen::Vector4d::Zero();
-    Eigen::Vector4d row_v = Eigen::Vector4d::Zero();
-    Eigen::Vector4d row_vv = Eigen::Vector4d::Zero();
-    for (int j = 0; j <= q; ++j, column += 4) {
-      const Eigen::Map<const Eigen::Vector4d> point(column);
-      row += basis_v[0][j] * point;
-      if constexpr (Order >= 1)
-        row_v += basis_v[1][j] * point;
-      if constexpr (Order >= 2)
-        row_vv += basis_v[2][j] * point;
-    }
-    jet.value += basis_u[0][i] * row;
-    if constexpr (Order >= 1) {
-      jet.du += basis_u[1][i] * row;
-      jet.dv += basis_u[0][i] * row_v;
-    }
-    if constexpr (Order >= 2) {
-      jet.duu += basis_u[2][i] * row;
-      jet.duv += basis_u[1][i] * row_v;
-      jet.dvv += basis_u[0][i] * row_vv;
-    }
-  }
-}
-
-/** Values and first derivatives of a basis without the general triangle of A2.3: the
- * derivative row is a difference of the values one degree below (equation 2.7). */
-void
-evaluateBasisAndSlope(const KnotVector& knots,
-                      int span,
-                      double u,
-                      BasisDerivatives& basis)
-{
-  const int p = knots.degree();
-  const double* knot = knots.values().data() + span;
-  BasisValues& values = basis[0];
-  BasisValues& slopes = basis[1];
-  values[0] = 1.0;
-  for (int d = 1; d <= p; ++d) {
-    double saved = 0.0;
-    double saved_slope = 0.0;
-    for (int r = 0; r < d; ++r) {
-      const double ratio = values[r] / (knot[r + 1] - knot[1 - d + r]);
-      if (d == p) {
-        slopes[r] = saved_slope - p * ratio;
-        saved_slope = p * ratio;
-      }
-      values[r] = saved + (knot[r + 1] - u) * ratio;
-      saved = (u - knot[1 - d + r]) * ratio;
-    }
-    values[d] = saved;
-    if (d == p)
-      slopes[d] = saved_slope;
-  }
-}
-
-} // namespace
 
 NurbsSurface::NurbsSurface() : points_(4, 4)
 {
@@ -123,6 +38,7 @@ NurbsSurface::NurbsSurface(KnotVector knots_u,
     throw std::invalid_argument("NurbsSurface: a control point is not finite");
   if (!(points_.row(3).minCoeff() > 0.0))
     throw std::invalid_argument("NurbsSurface: a weight is not positive");
+  rational_ = (points_.row(3).array() != points_(3, 0)).any();
 }
 
 NurbsSurface
@@ -137,68 +53,6 @@ NurbsSurface::fromControlPoints(KnotVector knots_u,
   if (weights.size() != 0)
     homogeneous = homogeneous * weights.asDiagonal();
   return {std::move(knots_u), std::move(knots_v), std::move(homogeneous)};
-}
-
-bool
-NurbsSurface::isRational() const
-{
-  return (points_.row(3).array() != points_(3, 0)).any();
-}
-
-Eigen::Vector3d
-NurbsSurface::evaluate(double u, double v) const
-{
-  const int span_u = knots_u_.findSpan(u);
-  const int span_v = knots_v_.findSpan(v);
-  BasisDerivatives basis_u;
-  BasisDerivatives basis_v;
-  knots_u_.evaluateBasis(span_u, u, basis_u[0]);
-  knots_v_.evaluateBasis(span_v, v, basis_v[0]);
-  HomogeneousJet jet;
-  sumJet<0>(*this, span_u, span_v, basis_u, basis_v, jet);
-  return jet.value.head<3>() / jet.value(3);
-}
-
-SurfaceJet1
-NurbsSurface::evaluateJet1(double u, double v) const
-{
-  const int span_u = knots_u_.findSpan(u);
-  const int span_v = knots_v_.findSpan(v);
-  BasisDerivatives basis_u;
-  BasisDerivatives basis_v;
-  evaluateBasisAndSlope(knots_u_, span_u, u, basis_u);
-  evaluateBasisAndSlope(knots_v_, span_v, v, basis_v);
-  HomogeneousJet jet;
-  sumJet<1>(*this, span_u, span_v, basis_u, basis_v, jet);
-  const double scale = 1.0 / jet.value(3);
-  SurfaceJet1 result;
-  result.position = scale * jet.value.head<3>();
-  result.du = scale * (jet.du.head<3>() - jet.du(3) * result.position);
-  result.dv = scale * (jet.dv.head<3>() - jet.dv(3) * result.position);
-  return result;
-}
-
-SurfaceJet2
-NurbsSurface::evaluateJet2(double u, double v) const
-{
-  const int span_u = knots_u_.findSpan(u);
-  const int span_v = knots_v_.findSpan(v);
-  BasisDerivatives basis_u;
-  BasisDerivatives basis_v;
-  knots_u_.evaluateBasisDerivatives(span_u, u, 2, basis_u);
-  knots_v_.evaluateBasisDerivatives(span_v, v, 2, basis_v);
-  HomogeneousJet h;
-  sumJet<2>(*this, span_u, span_v, basis_u, basis_v, h);
-  const double scale = 1.0 / h.value(3);
-  SurfaceJet2 s; // quotient rule, equation 4.20
-  s.position = scale * h.value.head<3>();
-  s.du = scale * (h.du.head<3>() - h.du(3) * s.position);
-  s.dv = scale * (h.dv.head<3>() - h.dv(3) * s.position);
-  s.duu = scale * (h.duu.head<3>() - 2.0 * h.du(3) * s.du - h.duu(3) * s.position);
-  s.dvv = scale * (h.dvv.head<3>() - 2.0 * h.dv(3) * s.dv - h.dvv(3) * s.position);
-  s.duv = scale *
-          (h.duv.head<3>() - h.du(3) * s.dv - h.dv(3) * s.du - h.duv(3) * s.position);
-  return s;
 }
 
 SurfaceDerivatives

@@ -155,7 +155,10 @@ public:
 
   /** \brief Whether the weights are not all equal. */
   bool
-  isRational() const;
+  isRational() const
+  {
+    return rational_;
+  }
 
   /** \brief Point at (u, v) (algorithm A4.3), in the unit of the control points.
    * Outside of the domain the border span is extrapolated. O(p q), no allocation. */
@@ -199,6 +202,7 @@ private:
   KnotVector knots_u_;
   KnotVector knots_v_;
   HomogeneousPoints points_;
+  bool rational_ = false;
 };
 
 } // namespace nurbs
