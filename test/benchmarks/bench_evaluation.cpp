@@ -91,7 +91,7 @@ void
 sisl(State& state)
 {
   const NurbsSurface surface = requestedSurface(state);
-  SislEvaluator evaluator(surface);
+  SislEvaluator evaluator(toSisl(surface));
   state.counters["difference"] = difference<order>(surface, evaluator);
   measure(state, [&](double u, double v) { return evaluator.evaluate<order>(u, v); });
 }

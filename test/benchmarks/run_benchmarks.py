@@ -29,6 +29,11 @@ ROWS = {
     "evaluate_jet2/degree:3/rational:0": ("Up to second derivatives, bicubic", None),
     "evaluate_jet2/degree:3/rational:1": ("Up to second derivatives, rational bicubic", None),
     "evaluate_jet2/degree:5/rational:0": ("Up to second derivatives, biquintic", None),
+    "insert_16x16_knots": ("Insert 16 knots in both directions", None),
+    "elevate_degree_3_to_4": ("Elevate the degree in both directions", None),
+    "closest_point_build": ("Closest point: build the search", None),
+    "closest_point_global": ("Closest point, up to 0.5 m away, no guess", None),
+    "closest_point_warm": ("Closest point, up to 2 cm away, guess off by 1 cm", "0.4 µs"),
     "fit_one_pass/100000": ("Fit 100k points, 34 × 34, given parameters", "30 ms"),
     "fit_one_pass/1000000": ("Fit 1M points, 34 × 34, given parameters", "250 ms"),
 }
@@ -89,7 +94,7 @@ def time_text(seconds):
 
 
 def quality_text(result):
-    return ", ".join(f"{k.replace('_', ' ')} {v:.2g}" for k, v in result["quality"].items())
+    return ", ".join(f"{k.replace('_', ' ')} {v:.4g}" for k, v in result["quality"].items())
 
 
 def table_lines(rows):
@@ -150,6 +155,8 @@ def main():
     if cache_value(arguments.build, "CMAKE_BUILD_TYPE") != "Release":
         sys.exit(f"{arguments.build} is not a Release build")
 
+    if os.getloadavg()[0] > 0.5:
+        print(f"warning: the machine is not idle (load {os.getloadavg()[0]:.1f})", file=sys.stderr)
     head = [HEAD, *machine_lines(arguments.build, arguments.repetitions), ""]
     results = {}
     for row, kernels in list_rows(program, arguments.filter).items():

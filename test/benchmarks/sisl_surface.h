@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl {
@@ -66,7 +67,7 @@ checkSisl(int state, const char* routine)
 /** \brief Evaluation by s1421, which keeps the last knot span as its hint. */
 class SislEvaluator {
 public:
-  explicit SislEvaluator(const NurbsSurface& surface) : surface_(toSisl(surface)) {}
+  explicit SislEvaluator(SislSurface surface) : surface_(std::move(surface)) {}
 
   /** \brief Point and derivatives up to the total order \a order, by rising order. */
   template <int order>
