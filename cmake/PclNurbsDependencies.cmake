@@ -10,9 +10,5 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 
-# PCL before 1.15.2 exports no targets: give its flags one name each. Its include
-# directories are system ones, so that only our own code answers to our warnings.
-add_library(pcl_nurbs_pcl INTERFACE)
-target_include_directories(pcl_nurbs_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
-target_link_libraries(pcl_nurbs_pcl INTERFACE ${PCL_COMMON_LIBRARIES}
-  ${PCL_SEARCH_LIBRARIES} ${PCL_KDTREE_LIBRARIES} ${PCL_OCTREE_LIBRARIES})
+include(PclNurbsPcl)
+pcl_nurbs_import_pcl(common search io)

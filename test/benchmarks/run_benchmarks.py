@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run the benchmarks and write doc/benchmarks.md.
+
+Each row runs in a process of its own, so that its peak memory is its own too, and ours
+and its peers run one right after the other. Reported are medians of the repetitions.
+"""
+
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import platform
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Row of the benchmark program: what it is, and the time we want to stay below.
+ROWS = {
+    "evaluate_point/degree:3/rational:0": ("Point, bicubic", None),
+    "evaluate_point/degree:3/rational:1": ("Point, rational bicubic", None),
+    "evaluate_point/degree:5/rational:0": ("Point, biquintic", None),
+    "evaluate_jet1/degree:3/rational:0": ("Point and first derivatives, bicubic", "60 ns"),
+    "evaluate_jet1/degree:3/rational:1": ("Point and first derivatives, rational bicubic", None),
+    "evaluate_jet1/degree:5/rational:0": ("Point and first derivatives, biquintic", None),
+    "evaluate_jet2/degree:3/rational:0": ("Up to second derivatives, bicubic", None),
+    "evaluate_jet2/degree:3/rational:1": ("Up to second derivatives, rational bicubic", None),
+    "evaluate_jet2/degree:5/rational:0": ("Up to second derivatives, biquintic", None),
+    "insert_16x16_knots": ("Insert 16 knots in both directions", None),
+    "elevate_degree_3_to_4": ("Elevate the degree in both directions", None),
+    "closest_point_build": ("Closest point: build the search", None),
+    "closest_point_global": ("Closest point, up to 0.5 m away, no guess", None),
+    "closest_point_warm": ("Closest point, up to 2 cm away, guess off by 1 cm", "0.4 µs"),
+    "fit_one_pass/100000": ("Fit 100k points, 34 × 34, given parameters", "30 ms"),
+    "fit_one_pass/1000000": ("Fit 1M points, 34 × 34, given parameters", "250 ms"),
+}
+UNITS = {"ns": 1e-9, "us": 1e-6, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
+NOT_QUALITY = {"calls"}
+
+
+def run(command):
+    """Standard output of a command and the peak memory of its process in MB."""
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    output = process.stdout.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    if status != 0:
+        sys.exit(f"failed: {' '.join(map(str, command))}")
+    return output.decode(), usage.ru_maxrss / 1024.0
+
+
+def split_name(name):
+    """'row/kernel/arguments' -> ('row/arguments', 'kernel')."""
+    parts = name.split("/")
+    return "/".join(parts[:1] + parts[2:]), parts[1]
+
+
+def list_rows(program, pattern):
+    """{row: {kernel: full name}} in the order of ROWS, then of the program."""
+    names, _ = run([program, "--benchmark_list_tests=true", f"--benchmark_filter={pattern}"])
+    rows = {}
+    for name in names.split():
+        row, kernel = split_name(name)
+        rows.setdefault(row, {})[kernel] = name
+    order = list(ROWS)
+    return dict(sorted(rows.items(), key=lambda r: order.index(r[0]) if r[0] in order else len(order)))
+
+
+def measure(program, name, repetitions):
+    """Median seconds per call, quality counters and peak memory of one benchmark."""
+    output, memory = run([program, f"--benchmark_filter=^{re.escape(name)}$",
+                          f"--benchmark_repetitions={repetitions}",
+                          "--benchmark_report_aggregates_only=true",
+                          "--benchmark_format=json"])
+    entries = json.loads(output)["benchmarks"]
+    median = next(e for e in entries if e.get("aggregate_name") == "median")
+    if median.get("error_occurred"):
+        sys.exit(f"{name}: {median['error_message']}")
+    known = {"real_time", "cpu_time", "threads", "repetitions", "iterations", "family_index",
+             "per_family_instance_index", "repetition_index"}
+    counters = {k: v for k, v in median.items() if isinstance(v, (int, float)) and k not in known}
+    seconds = median["real_time"] * UNITS[median["time_unit"]] / counters.get("calls", 1.0)
+    quality = {k: v for k, v in counters.items() if k not in NOT_QUALITY}
+    return {"seconds": seconds, "quality": quality, "memory": memory}
+
+
+def time_text(seconds):
+    for unit in ("s", "ms", "µs", "ns"):
+        if seconds >= UNITS[unit] or unit == "ns":
+            return f"{seconds / UNITS[unit]:.3g} {unit}"
+    raise ValueError(seconds)
+
+
+def quality_text(result):
+    return ", ".join(f"{k.replace('_', ' ')} {v:.4g}" for k, v in result["quality"].items())
+
+
+def table_lines(rows):
+    """Markdown rows: quality first, then time; one line per row and peer."""
+    for row, results in rows.items():
+        title, target = ROWS.get(row, (row, None))
+        ours = results.get("ours")
+        peers = {k: r for k, r in results.items() if k != "ours"} or {"": None}
+        for kernel, peer in peers.items():
+            both = ours and peer
+            yield " | ".join([
+                "| " + title,
+                quality_text(ours) if ours else "",
+                f"{kernel}: {quality_text(peer)}" if peer and peer["quality"] else "",
+                time_text(ours["seconds"]) if ours else "",
+                f"{kernel} {time_text(peer['seconds'])}" if peer else "",
+                f"{peer['seconds'] / ours['seconds']:.2f}" if both else "",
+                f"≤ {target}" if target else "",
+                f"{ours['memory']:.0f}" if ours else "",
+                f"{peer['memory']:.0f} |" if peer else "|"])
+
+
+def cache_value(build, key):
+    match = re.search(rf"^{key}:\w+=(.*)$", (build / "CMakeCache.txt").read_text(), re.M)
+    return match.group(1) if match else ""
+
+
+def machine_lines(build, repetitions):
+    cpu = re.search(r"^model name\s*: (.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M)
+    compiler, _ = run([cache_value(build, "CMAKE_CXX_COMPILER"), "--version"])
+    yield f"- Machine: {cpu.group(1) if cpu else platform.processor()}, {os.cpu_count()} cores visible"
+    yield f"- Load average at the start: {os.getloadavg()[0]:.1f}"
+    yield f"- Compiler: {compiler.splitlines()[0]}, {cache_value(build, 'CMAKE_BUILD_TYPE')}"
+    yield f"- Date: {datetime.date.today().isoformat()}; medians of {repetitions} repetitions"
+
+
+HEAD = """# Benchmarks
+
+Written by `test/benchmarks/run_benchmarks.py`; do not edit. The surface is
+z = 0.25 sin 3x cos 2y on [-1, 1]² with 34 × 34 control points, samples have 2 mm noise,
+seeds are fixed. Ratio: time of the peer divided by ours, above 1 is faster than the
+peer. "difference" compares with our own results at the same parameters, relative;
+"truth rms" is the height error against the noise-free surface. Peak memory is that of
+the whole process, data included.
+"""
+COLUMNS = ["Row", "Quality, ours", "Quality, peer", "Time, ours", "Time, peer", "Ratio",
+           "Target", "MB, ours", "MB, peer"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
+    parser.add_argument("--filter", default=".", help="regular expression on row names")
+    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "doc" / "benchmarks.md")
+    arguments = parser.parse_args()
+    program = arguments.build / "test" / "benchmarks" / "pcl_nurbs_benchmarks"
+    if cache_value(arguments.build, "CMAKE_BUILD_TYPE") != "Release":
+        sys.exit(f"{arguments.build} is not a Release build")
+
+    if os.getloadavg()[0] > 0.5:
+        print(f"warning: the machine is not idle (load {os.getloadavg()[0]:.1f})", file=sys.stderr)
+    head = [HEAD, *machine_lines(arguments.build, arguments.repetitions), ""]
+    results = {}
+    for row, kernels in list_rows(program, arguments.filter).items():
+        print(row, file=sys.stderr)
+        results[row] = {k: measure(program, name, arguments.repetitions)
+                        for k, name in sorted(kernels.items(), key=lambda k: k[0] != "ours")}
+    lines = head + ["| " + " | ".join(COLUMNS) + " |", "|" + " --- |" * len(COLUMNS),
+                    *table_lines(results)]
+    arguments.out.write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#pragma once
+
+#ifdef PCL_NURBS_HAVE_SISL
+
+#include <pcl/surface/nurbs/nurbs_surface.h>
+
+#include <sisl.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pcl {
+namespace nurbs {
+namespace bench {
+
+struct SislSurfaceDeleter {
+  void
+  operator()(SISLSurf* surface) const
+  {
+    freeSurf(surface);
+  }
+};
+
+using SislSurface = std::unique_ptr<SISLSurf, SislSurfaceDeleter>;
+
+/** \brief The same surface in SISL, which stores u fastest where we store v fastest. */
+inline SislSurface
+toSisl(const NurbsSurface& surface)
+{
+  const bool rational = surface.isRational();
+  const int rows = rational ? 4 : 3;
+  std::vector<double> points;
+  for (int j = 0; j < surface.numControlPointsV(); ++j)
+    for (int i = 0; i < surface.numControlPointsU(); ++i)
+      for (int row = 0; row < rows; ++row)
+        points.push_back(
+            surface.homogeneousPoints()(row, i * surface.numControlPointsV() + j));
+  std::vector<double> knots_u = surface.knotsU().values();
+  std::vector<double> knots_v = surface.knotsV().values();
+  return SislSurface(newSurf(surface.numControlPointsU(),
+                             surface.numControlPointsV(),
+                             surface.knotsU().degree() + 1,
+                             surface.knotsV().degree() + 1,
+                             knots_u.data(),
+                             knots_v.data(),
+                             points.data(),
+                             rational ? 2 : 1,
+                             3,
+                             1));
+}
+
+/** \brief SISL reports errors by negative states. */
+inline void
+checkSisl(int state, const char* routine)
+{
+  if (state < 0)
+    throw std::runtime_error(std::string(routine) +
+                             " failed: " + std::to_string(state));
+}
+
+/** \brief Evaluation by s1421, which keeps the last knot span as its hint. */
+class SislEvaluator {
+public:
+  explicit SislEvaluator(SislSurface surface) : surface_(std::move(surface)) {}
+
+  /** \brief Point and derivatives up to the total order \a order, by rising order. */
+  template <int order>
+  Eigen::Matrix<double, 3, (order + 1) * (order + 2) / 2>
+  evaluate(double u, double v)
+  {
+    Eigen::Matrix<double, 3, (order + 1) * (order + 2) / 2> values;
+    double parameter[2] = {u, v};
+    double normal[3];
+    int state = 0;
+    s1421(surface_.get(),
+          order,
+          parameter,
+          &span_u_,
+          &span_v_,
+          values.data(),
+          normal,
+          &state);
+    checkSisl(state, "s1421");
+    return values;
+  }
+
+private:
+  SislSurface surface_;
+  int span_u_ = 0;
+  int span_v_ = 0;
+};
+
+} // namespace bench
+} // namespace nurbs
+} // namespace pcl
+
+#endif
