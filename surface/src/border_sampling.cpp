@@ -131,12 +131,16 @@ private:
     const Piece& b = pieces_[follower.piece];
     if ((follower.reversed ? b.end : b.start) != a.start)
       return false;
-    for (const double f : {0.5, 0.25, 0.75}) {
+    double last = follower.reversed ? HUGE_VAL : -HUGE_VAL;
+    for (const double f : {0.25, 0.5, 0.75}) {
       const double t = a.first() + f * (a.last() - a.first());
       const Eigen::Vector3d target = a.position(t);
       const double s = follow(leader, follower, t, target);
-      if ((b.position(s) - target).norm() > options_.weld_tolerance)
+      // Only the order tells the two senses of a closed curve apart.
+      if ((follower.reversed ? s >= last : s <= last) ||
+          (b.position(s) - target).norm() > options_.weld_tolerance)
         return false;
+      last = s;
     }
     return true;
   }
@@ -219,17 +223,17 @@ private:
   bool
   isFine(const Border& border, const SharedSample& a, const SharedSample& b) const
   {
-    constexpr double kOneCell = 1.0 + 1e-9;
+    constexpr double kRoundedUp = 1.0 + 1e-9;
     for (std::size_t k = 0; k < a.parameters.size(); ++k) {
       const std::size_t piece = k == 0 ? border.leader : border.followers[k - 1].piece;
       const SurfaceGrid& grid = grids_[pieces_[piece].patch];
       const Eigen::Vector2d cells =
           grid.cellCoordinates(a.parameters[k]) - grid.cellCoordinates(b.parameters[k]);
-      if (cells.cwiseAbs().maxCoeff() > kOneCell)
+      if (cells.cwiseAbs().maxCoeff() > kRoundedUp)
         return false;
     }
     if (options_.max_edge_length > 0.0 &&
-        (b.position - a.position).norm() > options_.max_edge_length)
+        (b.position - a.position).norm() > kRoundedUp * options_.max_edge_length)
       return false;
     for (const double f : {0.5, 0.25, 0.75}) {
       const Eigen::Vector3d on_curve =

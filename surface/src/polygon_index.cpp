@@ -110,12 +110,17 @@ PolygonIndex::contains(const Eigen::Vector2d& point) const
     const Edge& edge = edges_[i];
     if (std::max(edge.from.x(), edge.to.x()) < point.x() - tolerance_)
       continue; // the ray runs towards greater u
-    if (isNear(edge, point))
+    const auto [low, high] = std::minmax(edge.from.y(), edge.to.y());
+    if (point.y() < low - tolerance_ || point.y() > high + tolerance_)
+      continue;
+    const Eigen::Vector2d along = edge.to - edge.from;
+    const double side = cross(along, point - edge.from);
+    if (side * side <= tolerance_ * tolerance_ * along.squaredNorm() &&
+        isNear(edge, point))
       return true;
     const bool from_below = edge.from.y() <= point.y();
     if (from_below == (edge.to.y() <= point.y()))
       continue;
-    const double side = cross(edge.to - edge.from, point - edge.from);
     if (from_below && side > 0.0)
       ++winding;
     else if (!from_below && side < 0.0)
