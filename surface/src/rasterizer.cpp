@@ -51,7 +51,8 @@ Rasterizer::Rasterizer(int width,
   if (!(vertical_fov > 0.0 && vertical_fov < M_PI))
     throw std::invalid_argument("render: the field of view must be within (0, pi)");
   focal_ = static_cast<float>(0.5 * height_ / std::tan(0.5 * vertical_fov));
-  const auto count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  const auto count =
+      static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   inverse_depth_.assign(count, 0.0F);
   colour_.assign(count, background);
 }
@@ -82,7 +83,8 @@ Rasterizer::drawTriangle(const ShadedVertex& a,
     if (is_visible)
       visible[n++] = project(from);
     if (is_visible != (to.position.z() >= near_)) {
-      const float t = (near_ - from.position.z()) / (to.position.z() - from.position.z());
+      const float t =
+          (near_ - from.position.z()) / (to.position.z() - from.position.z());
       ShadedVertex cut{from.position + t * (to.position - from.position),
                        from.colour + t * (to.colour - from.colour)};
       cut.position.z() = near_;
@@ -108,10 +110,8 @@ Rasterizer::fill(const ScreenVertex& a, const ScreenVertex& b, const ScreenVerte
         std::floor(std::clamp(std::max({p, q, r}) - 0.5F, -1.0F, limit - 1.0F));
     return std::pair(static_cast<int>(low), static_cast<int>(high));
   };
-  const auto [x0, x1] =
-      bounds(a.position.x(), b.position.x(), c.position.x(), width_);
-  const auto [y0, y1] =
-      bounds(a.position.y(), b.position.y(), c.position.y(), height_);
+  const auto [x0, x1] = bounds(a.position.x(), b.position.x(), c.position.x(), width_);
+  const auto [y0, y1] = bounds(a.position.y(), b.position.y(), c.position.y(), height_);
   // Weights of b and c are linear in the picture.
   const float b_dx = ac.y() / area;
   const float b_dy = -ac.x() / area;
@@ -123,8 +123,9 @@ Rasterizer::fill(const ScreenVertex& a, const ScreenVertex& b, const ScreenVerte
                                 static_cast<float>(y) + 0.5F - a.position.y());
     float wb = b_dx * start.x() + b_dy * start.y();
     float wc = c_dx * start.x() + c_dy * start.y();
-    std::size_t sample = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                         static_cast<std::size_t>(x0);
+    std::size_t sample =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+        static_cast<std::size_t>(x0);
     for (int x = x0; x <= x1; ++x, ++sample, wb += b_dx, wc += c_dx) {
       const float wa = 1.0F - wb - wc;
       if (wa < kOverlap || wb < kOverlap || wc < kOverlap)
@@ -190,10 +191,11 @@ Rasterizer::drawDot(const Eigen::Vector3f& point,
   if (!(point.z() >= near_))
     return;
   const ScreenVertex dot = project({point, colour});
-  if (dot.position.x() > -2.0F && dot.position.y() > -2.0F &&
-      dot.position.x() < static_cast<float>(width_ + 2) &&
-      dot.position.y() < static_cast<float>(height_ + 2))
-    plotDot(dot.position, dot.inverse_depth / (1.0F - bias), colour);
+  if (!(dot.position.cwiseAbs().maxCoeff() < static_cast<float>(width_ + height_)))
+    return; // outside, and too far for integers
+  // On whole pixels, so that a dot keeps its colour.
+  const Eigen::Vector2f pixel = (dot.position / kSamples).array().floor() + 0.5F;
+  plotDot(pixel * kSamples, dot.inverse_depth / (1.0F - bias), colour);
 }
 
 Image

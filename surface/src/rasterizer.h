@@ -64,7 +64,7 @@ private:
           float inverse_depth,
           const Eigen::Vector3f& colour);
 
-  int width_;  // in samples
+  int width_; // in samples
   int height_;
   float focal_; // in samples
   float near_ = 1e-3F;

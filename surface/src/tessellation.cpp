@@ -18,8 +18,10 @@ namespace {
 bool
 isDegenerate(const SurfaceJet1& jet)
 {
-  constexpr double kParallel = 1e-9;
-  return !(jet.du.cross(jet.dv).norm() > kParallel * jet.du.norm() * jet.dv.norm());
+  // At a pole one derivative is rounding noise whose direction means nothing.
+  constexpr double kNoise = 1e-9;
+  return !(jet.du.cross(jet.dv).norm() >
+           kNoise * (jet.du.squaredNorm() + jet.dv.squaredNorm()));
 }
 
 struct Orientation {

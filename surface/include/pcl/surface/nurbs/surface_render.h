@@ -92,7 +92,8 @@ struct RenderOptions {
 /** \brief Points drawn over the surfaces, hidden behind those they are clearly behind.
  */
 struct PointOverlay {
-  const Eigen::Vector3f* points = nullptr; /**< points that are not finite are left out */
+  const Eigen::Vector3f* points =
+      nullptr; /**< points that are not finite are left out */
   std::size_t size = 0;
   const Rgb* colours = nullptr; /**< one per point, or none: black */
 };
