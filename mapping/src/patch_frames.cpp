@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "patch_frames.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+/** Pose whose axes are the principal ones: x along the largest extent, z along the smallest
+ * and towards the sensor at the origin. */
+Eigen::Isometry3d
+basePlane(const Eigen::Matrix3Xd& positions)
+{
+  const Eigen::Vector3d mean = positions.rowwise().mean();
+  const Eigen::Matrix3Xd centred = positions.colwise() - mean;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(centred *
+                                                              centred.transpose());
+  Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  if (normal.dot(mean) > 0.0)
+    normal = -normal;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear().col(0) = solver.eigenvectors().col(2);
+  pose.linear().col(1) = normal.cross(solver.eigenvectors().col(2));
+  pose.linear().col(2) = normal;
+  pose.translation() = mean;
+  return pose;
+}
+
+/** The sensor's axes as a camera: columns are right, down and forward. */
+Eigen::Isometry3d
+sensorPose(const GridGeometry& geometry)
+{
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = geometry.frame.transpose();
+  return pose;
+}
+
+/** Camera at the origin that looks along the mean direction of the points. */
+Eigen::Isometry3d
+viewOf(const Eigen::Matrix3Xd& positions)
+{
+  const Eigen::Vector3d forward = positions.colwise().normalized().rowwise().mean();
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), forward)
+                      .toRotationMatrix();
+  return pose;
+}
+
+/** Whether all points lie in a cone of 50 degrees around the axis of a view, where a
+ * pinhole projection does not stretch too much. */
+bool
+fitsView(const Eigen::Isometry3d& pose, const Eigen::Matrix3Xd& positions)
+{
+  constexpr double kSmallestCosine = 0.64;
+  const Eigen::RowVectorXd along = pose.linear().col(2).transpose() * positions;
+  return (along.array() > kSmallestCosine * positions.colwise().norm().array()).all();
+}
+
+HeightFieldFrame
+mapPlane(const GridGeometry& geometry)
+{
+  Eigen::Isometry3d pose = sensorPose(geometry);
+  pose.linear().col(1) = pose.linear().col(2).cross(pose.linear().col(0));
+  return HeightFieldFrame::plane(pose);
+}
+
+} // namespace
+
+std::vector<FrameCandidate>
+candidateFrames(const GridGeometry& geometry, const Eigen::Matrix3Xd& positions)
+{
+  std::vector<FrameCandidate> result;
+  if (geometry.projection == GridProjection::perspective) {
+    const PinholeIntrinsics camera = geometry.intrinsics();
+    result.push_back({HeightFieldFrame::perspective(
+                          camera.fx, camera.fy, camera.cx, camera.cy, sensorPose(geometry)),
+                      true});
+  }
+  if (geometry.projection == GridProjection::plane)
+    result.push_back({mapPlane(geometry), false});
+  else
+    result.push_back({HeightFieldFrame::plane(basePlane(positions)), false});
+  if (geometry.projection == GridProjection::spherical) {
+    const Eigen::Isometry3d view = viewOf(positions);
+    if (fitsView(view, positions))
+      result.push_back({HeightFieldFrame::perspective(1.0, 1.0, 0.0, 0.0, view), false});
+  }
+  return result;
+}
+
+} // namespace nurbs
+} // namespace pcl

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "patch_trimming.h"
+
+#include "mask_boundary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+/** Rectangle of the grid around a set of cells; columns may run over the seam of a scan
+ * that closes on itself. */
+class GridWindow {
+public:
+  GridWindow(const GridGeometry& geometry, const CellSet& cells) : geometry_(geometry)
+  {
+    std::vector<char> used(static_cast<std::size_t>(geometry.width), 0);
+    int row_low = geometry.height;
+    int row_high = 0;
+    for (std::int32_t cell : cells) {
+      used[static_cast<std::size_t>(cell % geometry.width)] = 1;
+      row_low = std::min(row_low, cell / geometry.width);
+      row_high = std::max(row_high, cell / geometry.width);
+    }
+    first_row_ = row_low;
+    mask.height = row_high - row_low + 1;
+    chooseColumns(used);
+    mask.cells.assign(static_cast<std::size_t>(mask.width) *
+                          static_cast<std::size_t>(mask.height),
+                      0);
+  }
+
+  /** Column and row of a cell within the window. */
+  Eigen::Vector2i
+  place(std::int32_t cell) const
+  {
+    const int column =
+        (cell % geometry_.width - first_column_ + geometry_.width) % geometry_.width;
+    return {column, cell / geometry_.width - first_row_};
+  }
+
+  std::size_t
+  index(const Eigen::Vector2i& place) const
+  {
+    return static_cast<std::size_t>(place.y()) * static_cast<std::size_t>(mask.width) +
+           static_cast<std::size_t>(place.x());
+  }
+
+  Eigen::Vector2d
+  origin() const
+  {
+    return {first_column_, first_row_};
+  }
+
+  CellMask mask;
+
+private:
+  /** Start after the widest run of unused columns, counted around a closed scan. */
+  void
+  chooseColumns(const std::vector<char>& used)
+  {
+    const int width = geometry_.width;
+    int best_length = -1;
+    int best_end = 0;
+    const int turns = geometry_.wrap ? 2 : 1;
+    int length = 0;
+    for (int k = 0; k < turns * width && geometry_.wrap; ++k) {
+      length = used[static_cast<std::size_t>(k % width)] != 0 ? 0 : length + 1;
+      if (length > best_length && length <= width) {
+        best_length = length;
+        best_end = (k + 1) % width;
+      }
+    }
+    if (geometry_.wrap && best_length > 0) {
+      first_column_ = best_end;
+      mask.width = width - best_length;
+      return;
+    }
+    const auto first = std::find(used.begin(), used.end(), 1);
+    const auto last = std::find(used.rbegin(), used.rend(), 1);
+    first_column_ = static_cast<int>(first - used.begin());
+    mask.width = static_cast<int>(used.rend() - last) - first_column_;
+  }
+
+  const GridGeometry& geometry_;
+  int first_column_ = 0;
+  int first_row_ = 0;
+};
+
+/** Close cells that most of their neighbours surround. */
+CellMask
+closed(const CellMask& mask)
+{
+  constexpr int kMostNeighbours = 6;
+  CellMask result = mask;
+  for (int row = 0; row < mask.height; ++row)
+    for (int column = 0; column < mask.width; ++column) {
+      int neighbours = 0;
+      for (int dr = -1; dr <= 1; ++dr)
+        for (int dc = -1; dc <= 1; ++dc)
+          neighbours += (dr != 0 || dc != 0) && mask.at(column + dc, row + dr) ? 1 : 0;
+      if (neighbours >= kMostNeighbours)
+        result.cells[static_cast<std::size_t>(row) *
+                         static_cast<std::size_t>(mask.width) +
+                     static_cast<std::size_t>(column)] = 1;
+    }
+  return result;
+}
+
+/** Finds the (u, v) of lattice corners from the parameters of the cells around them. */
+class CornerParameters {
+public:
+  CornerParameters(const FittedSurface& surface, const GridWindow& window)
+  : surface_(surface), window_(window), position_(window.mask.cells.size(), -1)
+  {
+    for (std::size_t k = 0; k < surface.cells.size(); ++k)
+      if (surface.inlier[k])
+        position_[window.index(window.place(surface.cells[k]))] = static_cast<int>(k);
+    typical_column_ = typicalStep({1, 0});
+    typical_row_ = typicalStep({0, 1});
+  }
+
+  Eigen::Vector2d
+  at(const Eigen::Vector2i& corner) const
+  {
+    Eigen::Vector2d uv = Eigen::Vector2d::Zero();
+    if (surface_.frame.grid_parameters)
+      uv = corner.cast<double>() + window_.origin() - Eigen::Vector2d(0.5, 0.5);
+    else
+      uv = fromCells(corner);
+    const NurbsSurface& surface = surface_.fit.surface;
+    return {surface.knotsU().clampToDomain(uv.x()),
+            surface.knotsV().clampToDomain(uv.y())};
+  }
+
+private:
+  int
+  cellAt(const Eigen::Vector2i& place) const
+  {
+    return window_.mask.at(place.x(), place.y()) ? position_[window_.index(place)] : -1;
+  }
+
+  /** Step of (u, v) to the next cell, from a neighbour on either side; false if there is
+   * none. */
+  bool
+  localStep(const Eigen::Vector2i& place,
+            const Eigen::Vector2i& along,
+            Eigen::Vector2d& step) const
+  {
+    const int here = cellAt(place);
+    const int after = cellAt(place + along);
+    const int before = cellAt(place - along);
+    if (here < 0 || (after < 0 && before < 0))
+      return false;
+    const int high = after >= 0 ? after : here;
+    const int low = before >= 0 ? before : here;
+    step = (surface_.parameters.col(high) - surface_.parameters.col(low)) /
+           (after >= 0 && before >= 0 ? 2.0 : 1.0);
+    return true;
+  }
+
+  Eigen::Vector2d
+  typicalStep(const Eigen::Vector2i& along) const
+  {
+    std::vector<double> u;
+    std::vector<double> v;
+    Eigen::Vector2d step;
+    for (int row = 0; row < window_.mask.height; ++row)
+      for (int column = 0; column < window_.mask.width; ++column)
+        if (localStep({column, row}, along, step)) {
+          u.push_back(step.x());
+          v.push_back(step.y());
+        }
+    if (u.empty())
+      return Eigen::Vector2d::Zero();
+    const auto middle = [](std::vector<double>& values) {
+      const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), at, values.end());
+      return *at;
+    };
+    return {middle(u), middle(v)};
+  }
+
+  /** Mean over the member cells around a corner of where each expects it. */
+  Eigen::Vector2d
+  fromCells(const Eigen::Vector2i& corner) const
+  {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    int count = 0;
+    for (int dr : {-1, 0})
+      for (int dc : {-1, 0}) {
+        const Eigen::Vector2i place = corner + Eigen::Vector2i(dc, dr);
+        const int cell = cellAt(place);
+        if (cell < 0)
+          continue;
+        Eigen::Vector2d column = typical_column_;
+        Eigen::Vector2d row = typical_row_;
+        localStep(place, {1, 0}, column);
+        localStep(place, {0, 1}, row);
+        sum += surface_.parameters.col(cell) - (dc + 0.5) * column - (dr + 0.5) * row;
+        ++count;
+      }
+    return count > 0 ? Eigen::Vector2d(sum / count) : sum;
+  }
+
+  const FittedSurface& surface_;
+  const GridWindow& window_;
+  std::vector<int> position_; // in FittedSurface::cells, -1 for none
+  Eigen::Vector2d typical_column_;
+  Eigen::Vector2d typical_row_;
+};
+
+/** Number of cells inside of each connected part of a mask must reach a minimum; smaller
+ * parts are cleared (4-neighbours). */
+void
+clearSmallParts(CellMask& mask, int fewest)
+{
+  std::vector<char> seen(mask.cells.size(), 0);
+  std::vector<int> part;
+  for (int start = 0; start < static_cast<int>(mask.cells.size()); ++start) {
+    if (mask.cells[static_cast<std::size_t>(start)] == 0 ||
+        seen[static_cast<std::size_t>(start)] != 0)
+      continue;
+    part.assign(1, start);
+    seen[static_cast<std::size_t>(start)] = 1;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      const int column = part[k] % mask.width;
+      const int row = part[k] / mask.width;
+      for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        if (!mask.at(column + dc, row + dr))
+          continue;
+        const int next = (row + dr) * mask.width + column + dc;
+        if (seen[static_cast<std::size_t>(next)] == 0) {
+          seen[static_cast<std::size_t>(next)] = 1;
+          part.push_back(next);
+        }
+      }
+    }
+    if (static_cast<int>(part.size()) < fewest)
+      for (int cell : part)
+        mask.cells[static_cast<std::size_t>(cell)] = 0;
+  }
+}
+
+std::vector<TrimLoop>
+trimLoops(const FittedSurface& surface, const GridWindow& window)
+{
+  const CornerParameters parameters(surface, window);
+  // Rows count downwards: seen in (u, v) the sense of a loop may be the other one.
+  std::vector<TrimLoop> loops;
+  double total = 0.0;
+  for (const LatticeLoop& loop : traceBoundary(window.mask)) {
+    std::vector<Eigen::Vector2d> corners;
+    for (const Eigen::Vector2i& corner : loop) {
+      const Eigen::Vector2d uv = parameters.at(corner);
+      if (corners.empty() || uv != corners.back())
+        corners.push_back(uv);
+    }
+    if (corners.size() > 1 && corners.front() == corners.back())
+      corners.pop_back();
+    if (corners.size() < 3)
+      continue;
+    loops.push_back(TrimLoop::polygon(corners));
+    total += loops.back().signedArea();
+  }
+  if (total < 0.0)
+    for (TrimLoop& loop : loops)
+      loop = loop.reversed();
+  return loops;
+}
+
+} // namespace
+
+bool
+trimToInliers(const ReconstructionInput& input,
+              const FittedSurface& surface,
+              TrimmedPart& part)
+{
+  GridWindow window(input.points.geometry, surface.cells);
+  for (std::size_t k = 0; k < surface.cells.size(); ++k)
+    if (surface.inlier[k])
+      window.mask.cells[window.index(window.place(surface.cells[k]))] = 1;
+  window.mask = closed(window.mask);
+  clearSmallParts(window.mask, input.options.min_patch_points);
+
+  PatchQuality& quality = part.patch.quality;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < surface.cells.size(); ++k) {
+    if (!surface.inlier[k] ||
+        window.mask.cells[window.index(window.place(surface.cells[k]))] == 0)
+      continue;
+    const double distance = std::abs(surface.distances(static_cast<Eigen::Index>(k)));
+    part.members.push_back(k);
+    sum += distance * distance;
+    quality.max = std::max(quality.max, distance);
+  }
+  if (static_cast<int>(part.members.size()) < input.options.min_patch_points)
+    return false;
+  quality.points = part.members.size();
+  quality.noise = surface.noise;
+  quality.rmse = std::sqrt(sum / static_cast<double>(part.members.size()));
+  std::vector<TrimLoop> loops = trimLoops(surface, window);
+  if (loops.empty())
+    return false;
+  part.patch.geometry = TrimmedSurface(surface.fit.surface, std::move(loops));
+  return true;
+}
+
+} // namespace nurbs
+} // namespace pcl
