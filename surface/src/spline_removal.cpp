@@ -77,9 +77,16 @@ public:
   cheapest() const
   {
     Eigen::Index best = 0;
-    for (Eigen::Index r = 1; r < static_cast<Eigen::Index>(knots_.size()); ++r)
-      if (cost_[r] < kInfinity && errorAfter(r) < errorAfter(best))
+    double least = kInfinity;
+    for (Eigen::Index r = 1; r < static_cast<Eigen::Index>(knots_.size()); ++r) {
+      if (!(cost_[r] < least)) // errors so far can only add to it
+        continue;
+      const double error = errorAfter(r);
+      if (error < least) {
+        least = error;
         best = r;
+      }
+    }
     return best;
   }
 
