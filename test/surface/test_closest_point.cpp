@@ -9,6 +9,9 @@
 #include "exact_shapes.h"
 #include "grid_search.h"
 #include "random_nurbs.h"
+#ifdef PCL_NURBS_HAVE_SISL
+#include "sisl_surface.h"
+#endif
 
 #include <gtest/gtest.h>
 
@@ -210,6 +213,34 @@ TEST(ClosestPoint, rejectsWhatIsNotFinite)
   EXPECT_THROW(finder.findFrom({0, 0, 0}, nan, 0), std::invalid_argument);
   EXPECT_THROW(finder.findFrom({0, 0, 0}, 0, 1.0 / 0.0), std::invalid_argument);
 }
+
+#ifdef PCL_NURBS_HAVE_SISL
+TEST(ClosestPoint, isNeverFartherThanWhatSislFinds)
+{
+  RandomNurbs random(47);
+  const NurbsSurface surface =
+      random.surface(3, 2, true, test::KnotKind::ClampedRandom);
+  const ClosestPointFinder finder(surface);
+  const test::SislSurface sisl = test::toSisl(surface);
+  int agreed = 0;
+  constexpr int kQueries = 40;
+  for (int n = 0; n < kQueries; ++n) {
+    Eigen::Vector3d query = surface.evaluate(random.inDomain(surface.knotsU()),
+                                             random.inDomain(surface.knotsV()));
+    query +=
+        Eigen::Vector3d(random.normal(0.3), random.normal(0.3), random.normal(0.3));
+    double uv[2] = {0.0, 0.0};
+    double distance = 0.0;
+    int status = 0;
+    s1958(sisl.get(), query.data(), 3, 0.0, 1e-10, uv, &distance, &status);
+    ASSERT_GE(status, 0);
+    const ClosestPoint found = finder.find(query);
+    EXPECT_LE(found.distance, distance + 1e-9);
+    agreed += std::abs(found.distance - distance) < 1e-7 ? 1 : 0;
+  }
+  EXPECT_GE(agreed, kQueries * 9 / 10);
+}
+#endif
 
 class CurveClosestPointLaws
     : public testing::TestWithParam<std::tuple<int, bool, int>> {};
