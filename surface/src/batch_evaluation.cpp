@@ -4,10 +4,10 @@
 #include <pcl/surface/nurbs/batch_evaluation.h>
 
 #include "batch_kernel.h"
+#include "regular_point.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace pcl {
 namespace nurbs {
@@ -37,15 +37,11 @@ crossToNormals(const NurbsSurface& surface,
                const PlainBatch& jets,
                const CoordinateArrays& normals)
 {
-  constexpr double kParallel = 1e-10;
   for (std::size_t k = 0; k < jets.n; ++k) {
     const Eigen::Vector3d du(jets.out[3][k], jets.out[4][k], jets.out[5][k]);
     const Eigen::Vector3d dv(jets.out[6][k], jets.out[7][k], jets.out[8][k]);
-    Eigen::Vector3d normal = du.cross(dv);
-    const double squared = normal.squaredNorm();
-    if (squared > kParallel * kParallel * du.squaredNorm() * dv.squaredNorm())
-      normal /= std::sqrt(squared);
-    else
+    Eigen::Vector3d normal = unitNormal(surface, du, dv);
+    if (normal.isZero())
       normal = surface.normal(jets.u[k], jets.v[k]);
     normals.x[k] = normal.x();
     normals.y[k] = normal.y();

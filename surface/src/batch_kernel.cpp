@@ -46,10 +46,12 @@ basisOf(const PlainSurface::Knots& knots,
         Pack (&basis)[Order + 1][kMaxDegree + 1])
 {
   const int p = Degree > 0 ? Degree : knots.degree;
-  Pack gathered[2 * kMaxDegree];
+  Pack gathered[2 * (Degree > 0 ? Degree : kMaxDegree)];
   for (int r = 0; r < 2 * p; ++r) {
     const double* knot = knots.values + 1 - p + r;
-    gathered[r] = Pack{knot[span[0]], knot[span[1]], knot[span[2]], knot[span[3]]};
+    const double lanes[kLanes] = {
+        knot[span[0]], knot[span[1]], knot[span[2]], knot[span[3]]};
+    std::memcpy(&gathered[r], lanes, sizeof(Pack));
   }
   Pack parameters;
   std::memcpy(&parameters, u, sizeof(Pack));

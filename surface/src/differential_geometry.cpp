@@ -3,6 +3,8 @@
 
 #include <pcl/surface/nurbs/differential_geometry.h>
 
+#include "regular_point.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -13,21 +15,14 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
-/** sin of the angle between S_u and S_v below which a point is not regular. */
-constexpr double kParallel = 1e-10;
-
 FundamentalForms
-formsOf(const SurfaceJet2& s)
+formsOf(const NurbsSurface& surface, const SurfaceJet2& s)
 {
   FundamentalForms forms;
   forms.e = s.du.squaredNorm();
   forms.f = s.du.dot(s.dv);
   forms.g = s.dv.squaredNorm();
-  const Eigen::Vector3d cross = s.du.cross(s.dv);
-  const double length = cross.norm();
-  if (length <= kParallel * std::sqrt(forms.e * forms.g) || length == 0.0)
-    return forms;
-  forms.normal = cross / length;
+  forms.normal = unitNormal(surface, s.du, s.dv);
   forms.l = s.duu.dot(forms.normal);
   forms.m = s.duv.dot(forms.normal);
   forms.n = s.dvv.dot(forms.normal);
@@ -67,7 +62,7 @@ SurfaceCurvature
 curvatureAt(const NurbsSurface& surface, double u, double v)
 {
   const SurfaceJet2 jet = surface.evaluateJet2(u, v);
-  const FundamentalForms forms = formsOf(jet);
+  const FundamentalForms forms = formsOf(surface, jet);
   return forms.normal.isZero() ? SurfaceCurvature() : regularCurvature(jet, forms);
 }
 
@@ -101,7 +96,7 @@ limitCurvature(const NurbsSurface& surface, double u, double v)
 FundamentalForms
 fundamentalForms(const NurbsSurface& surface, double u, double v)
 {
-  return formsOf(surface.evaluateJet2(u, v));
+  return formsOf(surface, surface.evaluateJet2(u, v));
 }
 
 SurfaceCurvature
@@ -134,7 +129,8 @@ torsion(const NurbsCurve3& curve, double u)
   const std::vector<Eigen::Vector3d> d = curve.derivatives(u, 3);
   const Eigen::Vector3d binormal = d[1].cross(d[2]);
   const double length = binormal.norm();
-  if (length <= kParallel * d[1].norm() * d[2].norm())
+  constexpr double kStraight = 1e-10;
+  if (length <= kStraight * d[1].norm() * d[2].norm())
     return 0.0;
   return binormal.dot(d[3]) / (length * length);
 }
