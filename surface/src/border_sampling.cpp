@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace pcl {
@@ -220,13 +221,19 @@ private:
     return breaks;
   }
 
+  const SurfaceGrid&
+  gridOf(const Border& border, std::size_t k) const
+  {
+    const std::size_t piece = k == 0 ? border.leader : border.followers[k - 1].piece;
+    return grids_[pieces_[piece].patch];
+  }
+
   bool
   isFine(const Border& border, const SharedSample& a, const SharedSample& b) const
   {
     constexpr double kRoundedUp = 1.0 + 1e-9;
     for (std::size_t k = 0; k < a.parameters.size(); ++k) {
-      const std::size_t piece = k == 0 ? border.leader : border.followers[k - 1].piece;
-      const SurfaceGrid& grid = grids_[pieces_[piece].patch];
+      const SurfaceGrid& grid = gridOf(border, k);
       const Eigen::Vector2d cells =
           grid.cellCoordinates(a.parameters[k]) - grid.cellCoordinates(b.parameters[k]);
       if (cells.cwiseAbs().maxCoeff() > kRoundedUp)
@@ -245,6 +252,42 @@ private:
     return true;
   }
 
+  /** Coordinate in cells, along one axis, of piece \a k of a border. */
+  double
+  cellCoordinate(const Border& border,
+                 const SharedSample& sample,
+                 std::size_t k,
+                 int axis) const
+  {
+    return gridOf(border, k).cellCoordinates(sample.parameters[k])(axis);
+  }
+
+  /** Parameter of the leader where a piece crosses a crease of its surface. */
+  std::optional<double>
+  creaseCrossing(const Border& border,
+                 const SharedSample& a,
+                 const SharedSample& b) const
+  {
+    constexpr int kBisections = 60;
+    for (std::size_t k = 0; k < a.parameters.size(); ++k)
+      for (const int axis : {0, 1}) {
+        const double from = cellCoordinate(border, a, k, axis);
+        const double to = cellCoordinate(border, b, k, axis);
+        const int line = gridOf(border, k).creaseBetween(axis, from, to);
+        if (line < 0)
+          continue;
+        double below = from < to ? a.t : b.t;
+        double above = from < to ? b.t : a.t;
+        for (int n = 0; n < kBisections; ++n) {
+          const double t = 0.5 * (below + above);
+          (cellCoordinate(border, shared(border, t), k, axis) < line ? below : above) =
+              t;
+        }
+        return above;
+      }
+    return std::nullopt;
+  }
+
   /** Appends what lies between \a a and \a b, then \a b. */
   void
   refine(const Border& border,
@@ -257,6 +300,12 @@ private:
       const SharedSample middle = shared(border, 0.5 * (a.t + b.t));
       refine(border, a, middle, halvings - 1, samples);
       refine(border, middle, b, halvings - 1, samples);
+      return;
+    }
+    if (const std::optional<double> t = creaseCrossing(border, a, b)) {
+      const SharedSample middle = shared(border, *t);
+      refine(border, a, middle, 0, samples);
+      refine(border, middle, b, 0, samples);
       return;
     }
     samples.push_back(b);

@@ -222,6 +222,9 @@ private:
       for (std::size_t i = 0; i < loop.size(); ++i)
         plane_.addConstraint(loop[i], loop[(i + 1) % loop.size()], kTrim);
     addWalls();
+    for (const int axis : {0, 1})
+      for (const int line : grid_.creases(axis))
+        addCrease(axis, line);
     for (const auto& triangle : plane_.labelledTriangles())
       if (triangle.windings[0] != 0 && triangle.windings[1] == 0)
         addTriangle(meshVertexOf(triangle.vertices[0]),
@@ -247,15 +250,10 @@ private:
   int
   meshVertexOf(int id)
   {
-    const LatticePoint& point = plane_.point(id);
-    planarVertex(point, -1);
+    planarVertex(plane_.point(id), -1);
     int& known = mesh_vertex_of_[static_cast<std::size_t>(id)];
     if (known < 0) {
-      const Eigen::Vector2d uv =
-          origin_ +
-          Eigen::Vector2d(static_cast<double>(point.x), static_cast<double>(point.y))
-                  .cwiseQuotient(scale_) /
-              static_cast<double>(PlanarTriangulation::kResolution);
+      const Eigen::Vector2d uv = origin_ + latticeUnit(id).cwiseQuotient(scale_);
       known = addMeshVertex(uv, surface_.evaluate(uv.x(), uv.y()));
     }
     return known;
@@ -281,6 +279,41 @@ private:
   isWellInside(const Eigen::Vector2d& uv) const
   {
     return inside_->contains(scaled(uv)) && !inside_->isOnBorder(scaled(uv));
+  }
+
+  /** Edges along a line of the grid through all vertices on it. Loops cross creases
+   * only at vertices, so these edges do not cross them. */
+  void
+  addCrease(int axis, int line)
+  {
+    const LatticePoint on_line =
+        latticePoint(axis == 0 ? gridPoint(line, 0) : gridPoint(0, line));
+    std::vector<std::pair<std::int64_t, int>> along;
+    for (std::size_t id = 0; id < mesh_vertex_of_.size(); ++id) {
+      if (mesh_vertex_of_[id] < 0)
+        continue;
+      const LatticePoint& point = plane_.point(static_cast<int>(id));
+      if (axis == 0 && point.x == on_line.x)
+        along.emplace_back(point.y, id);
+      else if (axis == 1 && point.y == on_line.y)
+        along.emplace_back(point.x, id);
+    }
+    std::sort(along.begin(), along.end());
+    for (std::size_t k = 1; k < along.size(); ++k) {
+      const int a = along[k - 1].second;
+      const int b = along[k].second;
+      if (inside_->contains(0.5 * (latticeUnit(a) + latticeUnit(b))))
+        plane_.addConstraint(a, b, EdgeCounts{});
+    }
+  }
+
+  /** Vertex of the triangulation in scaled coordinates. */
+  Eigen::Vector2d
+  latticeUnit(int id) const
+  {
+    const LatticePoint& point = plane_.point(id);
+    return Eigen::Vector2d(static_cast<double>(point.x), static_cast<double>(point.y)) /
+           static_cast<double>(PlanarTriangulation::kResolution);
   }
 
   void
