@@ -3,14 +3,12 @@
 
 #include "border_sampling.h"
 
-#include "border_piece.h"
-#include "point_welder.h"
+#include "border_matching.h"
 #include "segment_distance.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
+#include <optional>
 
 namespace pcl {
 namespace nurbs {
@@ -18,30 +16,6 @@ namespace {
 
 constexpr double kShareOfTolerance = 0.5; // the triangles beside need the rest
 constexpr int kMaxHalvings = 20;
-
-/** A piece with its place in the model. */
-struct Piece : BorderPiece {
-  Piece(const BorderPiece& base, std::size_t of_patch, std::size_t of_loop, bool side)
-      : BorderPiece(base), patch(of_patch), loop(of_loop), is_side(side)
-  {
-  }
-
-  std::size_t patch, loop;
-  bool is_side;           // of a domain without loops
-  int start = 0, end = 0; // welded corners
-};
-
-/** A piece that follows the first piece of its border. */
-struct Follower {
-  std::size_t piece;
-  bool reversed;
-};
-
-/** Pieces that are one curve in space. */
-struct Border {
-  std::size_t leader;
-  std::vector<Follower> followers;
-};
 
 /** One sample of a border: what each of its pieces has there, leader first. */
 struct SharedSample {
@@ -55,29 +29,22 @@ public:
   BorderSampler(const std::vector<const TrimmedSurface*>& patches,
                 const std::vector<SurfaceGrid>& grids,
                 const TessellationOptions& options)
-      : grids_(grids), options_(options), corners_(options.weld_tolerance)
+      : matcher_(patches, options.weld_tolerance),
+        pieces_(matcher_.pieces()),
+        grids_(grids),
+        options_(options)
   {
-    for (const TrimmedSurface* patch : patches)
-      loops_.push_back(patch->isTrimmed()
-                           ? patch->loops()
-                           : std::vector{TrimLoop::ofDomain(patch->surface())});
-    for (std::size_t k = 0; k < patches.size(); ++k)
-      for (std::size_t loop = 0; loop < loops_[k].size(); ++loop)
-        for (const NurbsCurve2& curve : loops_[k][loop].curves())
-          addPieces(patches[k]->surface(), curve, k, loop, !patches[k]->isTrimmed());
-    for (std::size_t piece = 0; piece < pieces_.size(); ++piece)
-      join(piece);
   }
 
   std::vector<std::vector<BorderLoop>>
   sample()
   {
     std::vector<std::vector<BorderSample>> samples(pieces_.size());
-    for (const Border& border : borders_)
+    for (const Border& border : matcher_.borders())
       sampleBorder(border, samples);
-    std::vector<std::vector<BorderLoop>> result(loops_.size());
-    for (std::size_t k = 0; k < loops_.size(); ++k)
-      result[k].resize(loops_[k].size());
+    std::vector<std::vector<BorderLoop>> result;
+    for (const std::vector<TrimLoop>& loops : matcher_.loops())
+      result.emplace_back(loops.size());
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       BorderLoop& loop = result[pieces_[i].patch][pieces_[i].loop];
       // The end of a piece is the start of the next.
@@ -87,82 +54,6 @@ public:
   }
 
 private:
-  void
-  addPieces(const NurbsSurface& surface,
-            const NurbsCurve2& curve,
-            std::size_t patch,
-            std::size_t loop,
-            bool is_side)
-  {
-    const std::vector<double> breaks = curve.knots().breaks();
-    const std::size_t step = curve.degree() == 1 ? 1 : breaks.size() - 1;
-    for (std::size_t i = 0; i + step < breaks.size(); i += step) {
-      Piece piece({surface, curve, breaks[i], breaks[i + step]}, patch, loop, is_side);
-      const bool is_point =
-          step == 1 && curve.degree() == 1 &&
-          piece.parameter(piece.first()) == piece.parameter(piece.last());
-      if (is_point)
-        continue;
-      piece.start = corners_.add(piece.position(piece.first()));
-      piece.end = corners_.add(piece.position(piece.last()));
-      pieces_.push_back(piece);
-    }
-  }
-
-  void
-  join(std::size_t piece)
-  {
-    const auto [low, high] = std::minmax(pieces_[piece].start, pieces_[piece].end);
-    std::vector<std::size_t>& candidates = borders_between_[{low, high}];
-    for (const std::size_t border : candidates)
-      for (const bool reversed : {true, false})
-        if (coincide(borders_[border].leader, {piece, reversed})) {
-          borders_[border].followers.push_back({piece, reversed});
-          return;
-        }
-    candidates.push_back(borders_.size());
-    borders_.push_back({piece, {}});
-  }
-
-  bool
-  coincide(std::size_t leader, const Follower& follower) const
-  {
-    const Piece& a = pieces_[leader];
-    const Piece& b = pieces_[follower.piece];
-    if ((follower.reversed ? b.end : b.start) != a.start)
-      return false;
-    double last = follower.reversed ? HUGE_VAL : -HUGE_VAL;
-    for (const double f : {0.25, 0.5, 0.75}) {
-      const double t = a.first() + f * (a.last() - a.first());
-      const Eigen::Vector3d target = a.position(t);
-      const double s = follow(leader, follower, t, target);
-      // Only the order tells the two senses of a closed curve apart.
-      if ((follower.reversed ? s >= last : s <= last) ||
-          (b.position(s) - target).norm() > options_.weld_tolerance)
-        return false;
-      last = s;
-    }
-    return true;
-  }
-
-  /** Parameter of the follower where the leader has \a target. */
-  double
-  follow(std::size_t leader,
-         const Follower& follower,
-         double t,
-         const Eigen::Vector3d& target) const
-  {
-    const Piece& a = pieces_[leader];
-    const Piece& b = pieces_[follower.piece];
-    const double f = (t - a.first()) / (a.last() - a.first());
-    const double proportional =
-        b.first() + (follower.reversed ? 1.0 - f : f) * (b.last() - b.first());
-    const double near = b.project(target, proportional);
-    if ((b.position(near) - target).norm() <= options_.weld_tolerance)
-      return near;
-    return b.projectFromAnywhere(target);
-  }
-
   /** On a grid line where rounding only just missed it, so that the cells beside the
    * line stay whole. */
   Eigen::Vector2d
@@ -186,9 +77,9 @@ private:
     const Piece& leader = pieces_[border.leader];
     SharedSample sample{t, leader.position(t), {snappedParameter(leader, t)}};
     for (const Follower& follower : border.followers)
-      sample.parameters.push_back(
-          snappedParameter(pieces_[follower.piece],
-                           follow(border.leader, follower, t, sample.position)));
+      sample.parameters.push_back(snappedParameter(
+          pieces_[follower.piece],
+          matcher_.follow(border.leader, follower, t, sample.position)));
     return sample;
   }
 
@@ -220,13 +111,19 @@ private:
     return breaks;
   }
 
+  const SurfaceGrid&
+  gridOf(const Border& border, std::size_t k) const
+  {
+    const std::size_t piece = k == 0 ? border.leader : border.followers[k - 1].piece;
+    return grids_[pieces_[piece].patch];
+  }
+
   bool
   isFine(const Border& border, const SharedSample& a, const SharedSample& b) const
   {
     constexpr double kRoundedUp = 1.0 + 1e-9;
     for (std::size_t k = 0; k < a.parameters.size(); ++k) {
-      const std::size_t piece = k == 0 ? border.leader : border.followers[k - 1].piece;
-      const SurfaceGrid& grid = grids_[pieces_[piece].patch];
+      const SurfaceGrid& grid = gridOf(border, k);
       const Eigen::Vector2d cells =
           grid.cellCoordinates(a.parameters[k]) - grid.cellCoordinates(b.parameters[k]);
       if (cells.cwiseAbs().maxCoeff() > kRoundedUp)
@@ -245,6 +142,42 @@ private:
     return true;
   }
 
+  /** Coordinate in cells, along one axis, of piece \a k of a border. */
+  double
+  cellCoordinate(const Border& border,
+                 const SharedSample& sample,
+                 std::size_t k,
+                 int axis) const
+  {
+    return gridOf(border, k).cellCoordinates(sample.parameters[k])(axis);
+  }
+
+  /** Parameter of the leader where a piece crosses a crease of its surface. */
+  std::optional<double>
+  creaseCrossing(const Border& border,
+                 const SharedSample& a,
+                 const SharedSample& b) const
+  {
+    constexpr int kBisections = 60;
+    for (std::size_t k = 0; k < a.parameters.size(); ++k)
+      for (const int axis : {0, 1}) {
+        const double from = cellCoordinate(border, a, k, axis);
+        const double to = cellCoordinate(border, b, k, axis);
+        const int line = gridOf(border, k).creaseBetween(axis, from, to);
+        if (line < 0)
+          continue;
+        double below = from < to ? a.t : b.t;
+        double above = from < to ? b.t : a.t;
+        for (int n = 0; n < kBisections; ++n) {
+          const double t = 0.5 * (below + above);
+          (cellCoordinate(border, shared(border, t), k, axis) < line ? below : above) =
+              t;
+        }
+        return above;
+      }
+    return std::nullopt;
+  }
+
   /** Appends what lies between \a a and \a b, then \a b. */
   void
   refine(const Border& border,
@@ -257,6 +190,12 @@ private:
       const SharedSample middle = shared(border, 0.5 * (a.t + b.t));
       refine(border, a, middle, halvings - 1, samples);
       refine(border, middle, b, halvings - 1, samples);
+      return;
+    }
+    if (const std::optional<double> t = creaseCrossing(border, a, b)) {
+      const SharedSample middle = shared(border, *t);
+      refine(border, a, middle, 0, samples);
+      refine(border, middle, b, 0, samples);
       return;
     }
     samples.push_back(b);
@@ -276,8 +215,8 @@ private:
              shared(border, breaks[i]),
              kMaxHalvings,
              samples);
-    samples.front().position = corners_.point(leader.start);
-    samples.back().position = corners_.point(leader.end);
+    samples.front().position = matcher_.corner(leader.start);
+    samples.back().position = matcher_.corner(leader.end);
     const bool is_pole =
         std::all_of(samples.begin(), samples.end(), [&](const SharedSample& sample) {
           return (sample.position - samples.front().position).norm() <=
@@ -294,13 +233,10 @@ private:
     }
   }
 
+  BorderMatcher matcher_;
+  const std::vector<Piece>& pieces_;
   const std::vector<SurfaceGrid>& grids_;
   const TessellationOptions& options_;
-  PointWelder corners_;
-  std::vector<std::vector<TrimLoop>> loops_;
-  std::vector<Piece> pieces_;
-  std::vector<Border> borders_;
-  std::map<std::pair<int, int>, std::vector<std::size_t>> borders_between_;
 };
 
 } // namespace

@@ -28,8 +28,12 @@ PolygonIndex::PolygonIndex(const std::vector<std::vector<Eigen::Vector2d>>& poly
 {
   std::vector<Edge> edges;
   for (const auto& polygon : polygons)
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-      edges.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Eigen::Vector2d& from = polygon[i];
+      const Eigen::Vector2d& to = polygon[(i + 1) % polygon.size()];
+      edges.push_back(
+          {from, to, std::min(from.x(), to.x()), std::max(from.x(), to.x())});
+    }
   if (edges.empty())
     return;
   v_low_ = v_high_ = edges.front().from.y();
@@ -40,6 +44,10 @@ PolygonIndex::PolygonIndex(const std::vector<std::vector<Eigen::Vector2d>>& poly
   v_low_ -= tolerance_;
   v_high_ += tolerance_;
   chooseBands(edges);
+  // Bands are filled in this order.
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return a.u_high > b.u_high;
+  });
 
   const auto forEachBand = [this](const Edge& edge, auto&& action) {
     const auto [low, high] = std::minmax(edge.from.y(), edge.to.y());
@@ -108,8 +116,12 @@ PolygonIndex::contains(const Eigen::Vector2d& point) const
   int winding = 0;
   for (std::size_t i = first_[b]; i < first_[b + 1]; ++i) {
     const Edge& edge = edges_[i];
-    if (std::max(edge.from.x(), edge.to.x()) < point.x() - tolerance_)
-      continue; // the ray runs towards greater u
+    if (edge.u_high < point.x() - tolerance_)
+      break; // the ray runs towards greater u
+    if (edge.u_low > point.x() + tolerance_) {
+      winding += (edge.from.y() <= point.y()) - (edge.to.y() <= point.y());
+      continue;
+    }
     const auto [low, high] = std::minmax(edge.from.y(), edge.to.y());
     if (point.y() < low - tolerance_ || point.y() > high + tolerance_)
       continue;

@@ -35,6 +35,7 @@ public:
 private:
   struct Edge {
     Eigen::Vector2d from, to;
+    double u_low, u_high;
   };
 
   bool
@@ -50,7 +51,8 @@ private:
   double v_low_ = 0.0;
   double v_high_ = -1.0; // empty
   double bands_per_v_ = 0.0;
-  std::vector<std::size_t> first_; // band b owns edges_[first_[b] .. first_[b + 1])
+  std::vector<std::size_t> first_; // band b owns edges_[first_[b] .. first_[b + 1]),
+                                   // sorted by falling u_high
   std::vector<Edge> edges_;
 };
 

@@ -118,6 +118,16 @@ sum(const std::vector<double>& values)
   return total;
 }
 
+std::vector<int>
+creasesOf(const KnotVector& knots, const std::vector<double>& lines)
+{
+  std::vector<int> creases;
+  for (std::size_t i = 1; i + 1 < lines.size(); ++i)
+    if (knots.multiplicity(lines[i]) >= knots.degree())
+      creases.push_back(static_cast<int>(i));
+  return creases;
+}
+
 double
 cellCoordinate(const std::vector<double>& lines, double t)
 {
@@ -141,12 +151,22 @@ SurfaceGrid::SurfaceGrid(const NurbsSurface& surface,
     throw std::domain_error("tessellate: the tolerance is too small for the surface");
   u_ = cut(breaks_u, parts_u);
   v_ = cut(breaks_v, parts_v);
+  creases_ = {creasesOf(surface.knotsU(), u_), creasesOf(surface.knotsV(), v_)};
   Eigen::Vector2d lengths = Eigen::Vector2d::Zero();
   for (const SpanBounds& b : bounds)
     lengths += Eigen::Vector2d(b.edge_u / static_cast<double>(parts_v.size()),
                                b.edge_v / static_cast<double>(parts_u.size()));
   scale_ = {lengths.x() / surface.knotsU().domainLength(),
             lengths.y() / surface.knotsV().domainLength()};
+}
+
+int
+SurfaceGrid::creaseBetween(int axis, double a, double b) const
+{
+  const auto [low, high] = std::minmax(a, b);
+  const std::vector<int>& lines = creases(axis);
+  const auto line = std::upper_bound(lines.begin(), lines.end(), low);
+  return line != lines.end() && *line < high ? *line : -1;
 }
 
 Eigen::Vector2d

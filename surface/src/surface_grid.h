@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
 namespace pcl {
@@ -48,6 +49,19 @@ public:
   Eigen::Vector2d
   cellCoordinates(const Eigen::Vector2d& uv) const;
 
+  /** \brief Number of the line of constant u (axis 0) or v (axis 1), strictly between
+   * two cell coordinates, over which the surface may have a crease: a knot of full
+   * multiplicity. Triangles must not reach over it. -1 if there is none. */
+  int
+  creaseBetween(int axis, double a, double b) const;
+
+  /** \brief The lines of an axis that may be creases. */
+  const std::vector<int>&
+  creases(int axis) const
+  {
+    return creases_[static_cast<std::size_t>(axis)];
+  }
+
   /** \brief Lengths in space of a unit step in u and in v, averaged. */
   const Eigen::Vector2d&
   scale() const
@@ -58,6 +72,7 @@ public:
 private:
   std::vector<double> u_;
   std::vector<double> v_;
+  std::array<std::vector<int>, 2> creases_;
   Eigen::Vector2d scale_;
 };
 
