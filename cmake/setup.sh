@@ -6,18 +6,6 @@
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libpcl-dev libceres-dev libzstd-dev
   nlohmann-json3-dev libpng-dev libboost-program-options-dev)
 TEST_PACKAGES=(libgtest-dev libsisl-dev)
-BENCHMARK_PACKAGES=(libbenchmark-dev libalglib-dev libsisl-dev python3-minimal)
-
-as_root() {
-  if [ "$(id -u)" = 0 ]; then
-    "$@"
-  elif command -v sudo >/dev/null; then
-    sudo "$@"
-  else
-    echo "error: neither root nor sudo here; as root, run: $*" >&2
-    return 1
-  fi
-}
 
 is_installed() {
   [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
@@ -25,15 +13,22 @@ is_installed() {
 
 # install_packages PACKAGE... : Debian and Ubuntu; elsewhere CMake says what is missing.
 install_packages() {
-  local missing=() package
+  local missing=() as_root=() package
   command -v dpkg-query >/dev/null || return 0
   for package in "$@"; do
     is_installed "$package" || missing+=("$package")
   done
   [ ${#missing[@]} -gt 0 ] || return 0
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || {
+      echo "error: neither root nor sudo here; as root, run: apt-get install ${missing[*]}" >&2
+      return 1
+    }
+    as_root=(sudo)
+  fi
   echo "== installing ${missing[*]}"
-  as_root apt-get update -qq
-  as_root env DEBIAN_FRONTEND=noninteractive \
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
