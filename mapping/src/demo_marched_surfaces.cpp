@@ -106,7 +106,7 @@ public:
   {
     // The nearest place is no farther along y than the distance at this y.
     const double reach = std::abs(point.x() - wave(point.y()));
-    constexpr int kStarts = 64;
+    constexpr int kStarts = 16;
     double best = reach;
     for (int i = 0; i <= kStarts; ++i)
       best = std::min(
@@ -132,7 +132,10 @@ private:
       const double second = 1.0 + slope * slope + off * bend;
       if (!(second > 0.0))
         break;
-      y -= (off * slope + y - point.y()) / second;
+      const double step = (off * slope + y - point.y()) / second;
+      y -= step;
+      if (std::abs(step) < 1e-13)
+        break;
     }
     return std::hypot(wave(y) - point.x(), y - point.y());
   }

@@ -134,8 +134,12 @@ layOutScattered(const PointList& points, std::optional<GridProjection> projectio
     Rings rings = ringsFromOrder(charts);
     if (!rings)
       rings = ringsFromAngles(charts);
-    if (rings)
-      return layOut(points, GridProjection::spherical, rings);
+    if (rings) {
+      GridLayout layout = layOut(points, GridProjection::spherical, rings);
+      // What looked like rings was none when most points share their places.
+      if (projection || layout.dropped * 10 < points.size())
+        return layout;
+    }
   }
   return projection ? layOut(points, *projection, {}) : layOutByData(points);
 }

@@ -54,7 +54,8 @@ TEST_F(CloudFiles, pcdOfEveryEncodingEqualsWhatPclWrote)
 
 TEST_F(CloudFiles, plyOfBothEncodingsEqualsWhatPclWrote)
 {
-  const PointCloud<PointXYZI> truth = sampleCloud();
+  PointCloud<PointXYZI> truth = sampleCloud();
+  truth[7].x = truth[7].y = truth[7].z = 0.0F; // the writer leaves out holes
   PLYWriter writer;
   writer.write(path("a.ply"), truth, false, false);
   writer.write(path("b.ply"), truth, true, false);

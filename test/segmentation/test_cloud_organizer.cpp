@@ -142,7 +142,7 @@ TEST(ScatteredInput, ringsInStoredOrderComeBack)
     for (int turn = 0; turn < 720; ++turn) {
       if (random() % 10 == 0)
         continue;
-      const double column = 359.6 - turn; // counter-clockwise from forward
+      const double column = 359.4 - turn; // counter-clockwise from forward
       const Eigen::Vector3d ray = truth.direction(column, row);
       const Eigen::Vector3f point = (8.0 * ray).cast<float>();
       cloud.emplace_back(point.x(), point.y(), point.z());
