@@ -61,11 +61,15 @@ refineRaster(GridGeometry grid, const ChartList& charts, const Rings& rings)
   const double most_cells = std::max(kMostCellsPerPoint * static_cast<double>(points),
                                      static_cast<double>(kLeastCells));
   const bool single = !(std::max(u.length(), v.length()) > 0.0); // no use refining
+  const auto count_cells = [&] {
+    setRaster(grid, u, v, step);
+    return static_cast<double>(grid.width) * grid.height;
+  };
+  while (!single && count_cells() > most_cells)
+    step *= 1.25; // lines and outliers cover little of their rectangle
   GridLayout layout;
   for (bool first = true;; first = false, step *= 0.85) {
-    setRaster(grid, u, v, step);
-    const double cells = static_cast<double>(grid.width) * grid.height;
-    if (!first && cells > most_cells)
+    if (count_cells() > most_cells && !first)
       break;
     layout = fillCells(grid, charts, rings);
     if (single || layout.dropped * 12 < points)

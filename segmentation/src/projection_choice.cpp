@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace pcl {
 namespace nurbs {
@@ -113,23 +114,25 @@ stepForDensity(const ChartList& charts,
                const Interval& v,
                double per_cell)
 {
-  double points = 0.0;
-  for (const Eigen::Vector3f& chart : charts)
-    points += std::isnan(chart.x()) ? 0.0 : 1.0;
+  const std::size_t stride = charts.size() / kSample + 1;
+  ChartList sample;
+  for (std::size_t i = 0; i < charts.size(); i += stride)
+    if (!std::isnan(charts[i].x()))
+      sample.push_back(charts[i]);
+  const auto points = static_cast<double>(sample.size());
   const double longest = std::max(u.length(), v.length());
   if (points < 1.0 || !(longest > 0.0))
     return 1.0;
   double step = longest / std::max(1.0, std::sqrt(points / 8.0));
   // The area touched depends on the step it is measured with: a few rounds settle it.
   for (int round = 0; round < 3; ++round) {
-    std::unordered_map<std::uint64_t, char> touched;
-    for (const Eigen::Vector3f& chart : charts)
-      if (!std::isnan(chart.x()))
-        touched.emplace(coarseCell(chart, step), 1);
+    std::unordered_set<std::uint64_t> touched;
+    for (const Eigen::Vector3f& chart : sample)
+      touched.insert(coarseCell(chart, step));
     const double density = points / static_cast<double>(touched.size());
     step = std::max(step * std::sqrt(8.0 / density), longest * 1e-5);
   }
-  return step * std::sqrt(per_cell / 8.0);
+  return step * std::sqrt(per_cell / (8.0 * static_cast<double>(stride)));
 }
 
 GridGeometry
