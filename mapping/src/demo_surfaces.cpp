@@ -155,133 +155,6 @@ private:
   double radius_;
 };
 
-/** Walk along a ray by steps that cannot pass the surface. */
-template <typename Clearance>
-double
-march(const Vector3d& origin,
-      const Vector3d& ray,
-      double along,
-      double end,
-      const Clearance& clearance)
-{
-  constexpr double kMet = 1e-10;
-  constexpr int kMostSteps = 20000;
-  for (int step = 0; step < kMostSteps && along < end; ++step) {
-    const double free = clearance(origin + along * ray);
-    if (free < kMet)
-      return along > kNear ? along : kNever;
-    along += free;
-  }
-  return kNever;
-}
-
-/** A torus standing upright, its axis along y. */
-class Arch : public DemoSurface {
-public:
-  Arch(std::string name, const Vector3d& center, double ring, double tube)
-      : DemoSurface(std::move(name)), center_(center), ring_(ring), tube_(tube)
-  {
-  }
-
-  double
-  cast(const Vector3d& origin, const Vector3d& ray) const override
-  {
-    const double along = (center_ - origin).dot(ray);
-    const double reach = ring_ + tube_;
-    if ((center_ - origin - along * ray).norm() > reach)
-      return kNever;
-    return march(origin,
-                 ray,
-                 std::max(along - reach, 0.0),
-                 along + reach,
-                 [this](const Vector3d& point) { return distance(point); });
-  }
-
-  double
-  distance(const Vector3d& point) const override
-  {
-    const Vector3d offset = point - center_;
-    const double from_ring = std::hypot(offset.x(), offset.z()) - ring_;
-    return std::abs(std::hypot(from_ring, offset.y()) - tube_);
-  }
-
-private:
-  Vector3d center_;
-  double ring_;
-  double tube_;
-};
-
-/** x = middle + amplitude sin(2 pi y / length). */
-class WavyWall : public DemoSurface {
-public:
-  WavyWall(std::string name, double middle, double amplitude, double length)
-      : DemoSurface(std::move(name)),
-        middle_(middle),
-        amplitude_(amplitude),
-        frequency_(2.0 * M_PI / length)
-  {
-  }
-
-  double
-  cast(const Vector3d& origin, const Vector3d& ray) const override
-  {
-    // Start where the ray enters the slab that holds the waves.
-    const double side = middle_ > origin.x() ? -1.0 : 1.0;
-    const double enter = (middle_ + side * amplitude_ - origin.x()) / ray.x();
-    const double leave = (middle_ - side * amplitude_ - origin.x()) / ray.x();
-    if (!(leave > 0.0))
-      return kNever;
-    const double steepest = std::hypot(1.0, amplitude_ * frequency_);
-    return march(origin,
-                 ray,
-                 std::max(enter, 0.0),
-                 leave + 1e-6,
-                 [this, steepest](const Vector3d& point) {
-                   return std::abs(point.x() - wave(point.y())) / steepest;
-                 });
-  }
-
-  double
-  distance(const Vector3d& point) const override
-  {
-    // The nearest place is no farther along y than the distance at this y.
-    const double reach = std::abs(point.x() - wave(point.y()));
-    constexpr int kStarts = 64;
-    double best = reach;
-    for (int i = 0; i <= kStarts; ++i)
-      best = std::min(
-          best, localDistance(point, point.y() + reach * (2.0 * i / kStarts - 1.0)));
-    return best;
-  }
-
-private:
-  double
-  wave(double y) const
-  {
-    return middle_ + amplitude_ * std::sin(frequency_ * y);
-  }
-
-  /** Distance to the foot of the perpendicular near y, by Newton's method. */
-  double
-  localDistance(const Vector3d& point, double y) const
-  {
-    for (int round = 0; round < 20; ++round) {
-      const double off = wave(y) - point.x();
-      const double slope = amplitude_ * frequency_ * std::cos(frequency_ * y);
-      const double bend = -frequency_ * frequency_ * (wave(y) - middle_);
-      const double second = 1.0 + slope * slope + off * bend;
-      if (!(second > 0.0))
-        break;
-      y -= (off * slope + y - point.y()) / second;
-    }
-    return std::hypot(wave(y) - point.x(), y - point.y());
-  }
-
-  double middle_;
-  double amplitude_;
-  double frequency_;
-};
-
 void
 addBox(std::vector<std::unique_ptr<DemoSurface>>& surfaces,
        const Vector3d& foot,
@@ -312,11 +185,10 @@ makeDemoSurfaces()
   surfaces.push_back(std::make_unique<Plane>("floor", Vector3d::UnitZ(), 0.0));
   surfaces.push_back(std::make_unique<Plane>("back wall", Vector3d::UnitY(), 3.4));
   surfaces.push_back(std::make_unique<Plane>("right wall", Vector3d::UnitX(), 1.25));
-  surfaces.push_back(std::make_unique<WavyWall>("wavy wall", -1.3, 0.05, 0.9));
+  surfaces.push_back(makeWavyWall("wavy wall", -1.3, 0.05, 0.9));
   surfaces.push_back(std::make_unique<Column>("column", Vector2d(-0.8, 2.55), 0.17));
   surfaces.push_back(std::make_unique<Sphere>("dome", Vector3d(0.62, 2.3, 0.0), 0.38));
-  surfaces.push_back(
-      std::make_unique<Arch>("arch", Vector3d(0.1, 2.95, 0.0), 0.7, 0.09));
+  surfaces.push_back(makeArch("arch", Vector3d(0.1, 2.95, 0.0), 0.7, 0.09));
   addBox(surfaces, Vector3d(-0.3, 1.95, 0.0), Vector3d(0.24, 0.2, 0.16), 0.6);
   return surfaces;
 }

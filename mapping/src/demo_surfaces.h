@@ -38,6 +38,14 @@ private:
   std::string name_;
 };
 
+/** A torus standing upright, its axis along y. */
+std::unique_ptr<DemoSurface>
+makeArch(std::string name, const Eigen::Vector3d& center, double ring, double tube);
+
+/** x = middle + amplitude sin(2 pi y / length). */
+std::unique_ptr<DemoSurface>
+makeWavyWall(std::string name, double middle, double amplitude, double length);
+
 /** The surfaces of the demo room. */
 std::vector<std::unique_ptr<DemoSurface>>
 makeDemoSurfaces();

@@ -5,13 +5,11 @@
 
 #include "cell_filler.h"
 #include "grid_steps.h"
-#include "principal_axes.h"
+#include "projection_choice.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
-#include <unordered_map>
 
 namespace pcl {
 namespace nurbs {
@@ -19,172 +17,8 @@ namespace {
 
 constexpr double kTurn = 2.0 * M_PI;
 constexpr double kWideAngle = 0.9 * kTurn; // azimuths over more than this go all around
-constexpr std::size_t kSample = 100000;
 constexpr double kMostCellsPerPoint = 16.0;
 constexpr std::size_t kLeastCells = 1024;
-
-ChartList
-chartsOf(const PointList& points, const GridGeometry& grid, std::size_t stride)
-{
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  ChartList charts;
-  charts.reserve(points.size() / stride + 1);
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    Eigen::Vector3f chart = grid.chart(points[i].cast<double>()).cast<float>();
-    if (!chart.allFinite() || (isInverseDepthGrid(grid) && !(chart.z() > 0.0F)))
-      chart.setConstant(nan);
-    charts.push_back(chart);
-  }
-  return charts;
-}
-
-struct Interval {
-  double first;
-  double last;
-
-  double
-  length() const
-  {
-    return last - first;
-  }
-};
-
-/** Where a chart coordinate lies, a few far outliers aside. */
-Interval
-extent(const ChartList& charts, int coordinate)
-{
-  std::vector<float> values;
-  const std::size_t stride = charts.size() / kSample + 1;
-  float least = std::numeric_limits<float>::infinity();
-  float most = -least;
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    const float value = charts[i][coordinate];
-    if (std::isnan(value))
-      continue;
-    least = std::min(least, value);
-    most = std::max(most, value);
-    if (i % stride == 0)
-      values.push_back(value);
-  }
-  if (values.empty())
-    return {0.0, 0.0};
-  std::sort(values.begin(), values.end());
-  const std::size_t tail = values.size() / 1000;
-  const double low = values[tail];
-  const double high = values[values.size() - 1 - tail];
-  const double margin = 0.5 * (high - low);
-  return {std::max<double>(least, low - margin), std::min<double>(most, high + margin)};
-}
-
-std::uint64_t
-coarseCell(const Eigen::Vector3f& chart, double step)
-{
-  const auto u = static_cast<std::int32_t>(std::floor(chart.x() / step));
-  const auto v = static_cast<std::int32_t>(std::floor(chart.y() / step));
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(u)) << 32U) |
-         static_cast<std::uint32_t>(v);
-}
-
-/** Step of a raster that has about \a per_cell points in each cell they touch. */
-double
-stepForDensity(const ChartList& charts,
-               const Interval& u,
-               const Interval& v,
-               double per_cell)
-{
-  double points = 0.0;
-  for (const Eigen::Vector3f& chart : charts)
-    points += std::isnan(chart.x()) ? 0.0 : 1.0;
-  const double longest = std::max(u.length(), v.length());
-  if (points < 1.0 || !(longest > 0.0))
-    return 1.0;
-  double step = longest / std::max(1.0, std::sqrt(points / 8.0));
-  // The area touched depends on the step it is measured with: a few rounds settle it.
-  for (int round = 0; round < 3; ++round) {
-    std::unordered_map<std::uint64_t, char> touched;
-    for (const Eigen::Vector3f& chart : charts)
-      if (!std::isnan(chart.x()))
-        touched.emplace(coarseCell(chart, step), 1);
-    const double density = points / static_cast<double>(touched.size());
-    step = std::max(step * std::sqrt(8.0 / density), longest * 1e-5);
-  }
-  return step * std::sqrt(per_cell / 8.0);
-}
-
-/** Share of points that lie far behind another one of their cell: how badly the depth
- * fails to be a function of the cell. */
-double
-layering(const ChartList& charts, const GridGeometry& grid)
-{
-  const double step = stepForDensity(charts, extent(charts, 0), extent(charts, 1), 4.0);
-  std::unordered_map<std::uint64_t, float> nearest;
-  for (const Eigen::Vector3f& chart : charts)
-    if (!std::isnan(chart.x())) {
-      const auto place = nearest.emplace(coarseCell(chart, step), chart.z()).first;
-      place->second = std::min(place->second, chart.z());
-    }
-  double behind = 0.0;
-  double all = 0.0;
-  for (const Eigen::Vector3f& chart : charts) {
-    ++all;
-    if (std::isnan(chart.x())) {
-      ++behind; // a point the projection cannot show
-      continue;
-    }
-    const float front = nearest[coarseCell(chart, step)];
-    const double cell = isInverseDepthGrid(grid) ? step * front : step;
-    behind += chart.z() - front > 4.0 * cell ? 1.0 : 0.0;
-  }
-  return behind / std::max(all, 1.0);
-}
-
-GridGeometry
-rasterOf(GridProjection projection, const PointList& points)
-{
-  GridGeometry grid;
-  grid.projection = projection;
-  if (projection == GridProjection::spherical)
-    grid.frame = GridGeometry::vehicleFrame();
-  else if (projection == GridProjection::plane)
-    grid.frame = principalAxes(points);
-  return grid;
-}
-
-PointList
-finitePoints(const PointList& points, std::size_t stride)
-{
-  PointList finite;
-  for (std::size_t i = 0; i < points.size(); i += stride)
-    if (points[i].allFinite())
-      finite.push_back(points[i]);
-  return finite;
-}
-
-/** The projection with the least layering. A camera or laser is believed a little more
- * than a height field; a camera only when all it sees is in front of it. */
-GridProjection
-chooseProjection(const PointList& points)
-{
-  const PointList sample = finitePoints(points, points.size() / kSample + 1);
-  constexpr std::array<GridProjection, 3> candidates = {
-      GridProjection::perspective, GridProjection::spherical, GridProjection::plane};
-  constexpr std::array<double, 3> handicap = {0.0, 0.01, 0.02};
-  GridProjection best = GridProjection::plane;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    const GridGeometry grid = rasterOf(candidates[c], sample);
-    const ChartList charts = chartsOf(sample, grid, 1);
-    if (candidates[c] == GridProjection::perspective &&
-        (extent(charts, 0).length() > 4.0 || extent(charts, 1).length() > 4.0))
-      continue;
-    const double score = layering(charts, grid) + handicap[c];
-    if (score < least) {
-      least = score;
-      best = candidates[c];
-    }
-  }
-  return best;
-}
 
 /** Lay the raster over the points with a step. */
 void
@@ -226,14 +60,19 @@ refineRaster(GridGeometry grid, const ChartList& charts, const Rings& rings)
   double step = rings ? rings.azimuth_step : stepForDensity(charts, u, v, 0.8);
   const double most_cells = std::max(kMostCellsPerPoint * static_cast<double>(points),
                                      static_cast<double>(kLeastCells));
+  const bool single = !(std::max(u.length(), v.length()) > 0.0); // no use refining
+  const auto count_cells = [&] {
+    setRaster(grid, u, v, step);
+    return static_cast<double>(grid.width) * grid.height;
+  };
+  while (!single && count_cells() > most_cells)
+    step *= 1.25; // lines and outliers cover little of their rectangle
   GridLayout layout;
   for (bool first = true;; first = false, step *= 0.85) {
-    setRaster(grid, u, v, step);
-    const double cells = static_cast<double>(grid.width) * grid.height;
-    if (!first && cells > most_cells)
+    if (count_cells() > most_cells && !first)
       break;
     layout = fillCells(grid, charts, rings);
-    if (layout.dropped * 12 < points)
+    if (single || layout.dropped * 12 < points)
       break;
   }
   layout.geometry.max_gap = typicalGap(layout);
@@ -254,7 +93,7 @@ countReadings(const PointList& points, const GridGeometry& grid)
 GridLayout
 layOut(const PointList& points, GridProjection projection, const Rings& rings)
 {
-  GridGeometry grid = rasterOf(projection, points);
+  GridGeometry grid = projectionFor(projection, points);
   if (rings)
     setRings(grid, rings);
   GridLayout layout = refineRaster(grid, chartsOf(points, grid, 1), rings);
@@ -294,13 +133,17 @@ layOutScattered(const PointList& points, std::optional<GridProjection> projectio
   if (projection == GridProjection::lattice)
     throw std::invalid_argument("layOutScattered: points have no lattice of their own");
   if (!projection || projection == GridProjection::spherical) {
-    const GridGeometry sphere = rasterOf(GridProjection::spherical, points);
+    const GridGeometry sphere = projectionFor(GridProjection::spherical, points);
     const ChartList charts = chartsOf(points, sphere, 1);
     Rings rings = ringsFromOrder(charts);
     if (!rings)
       rings = ringsFromAngles(charts);
-    if (rings)
-      return layOut(points, GridProjection::spherical, rings);
+    if (rings) {
+      GridLayout layout = layOut(points, GridProjection::spherical, rings);
+      // What looked like rings was none when most points share their places.
+      if (projection || layout.dropped * 10 < points.size())
+        return layout;
+    }
   }
   return projection ? layOut(points, *projection, {}) : layOutByData(points);
 }

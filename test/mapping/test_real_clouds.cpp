@@ -42,6 +42,7 @@ struct Source {
   const char* extension;
   std::optional<GridProjection> projection;
   CloudReadOptions options;
+  double most_dropped = 0.1;
 };
 
 CloudReadOptions
@@ -80,7 +81,8 @@ TEST_P(RealClouds, loadOrganizeAndSegment)
     std::size_t kept = 0;
     for (const std::int32_t index : organizer.getCellPoints())
       kept += index >= 0 ? 1 : 0;
-    EXPECT_LE(organizer.getNumDropped() * 10, kept + organizer.getNumDropped());
+    const auto dropped = static_cast<double>(organizer.getNumDropped());
+    EXPECT_LE(dropped, GetParam().most_dropped * (static_cast<double>(kept) + dropped));
     ConnectedGroupsSegmentation<PointXYZ> segmentation;
     segmentation.setInputCloud(organized);
     segmentation.setGeometry(organizer.getGeometry());
@@ -110,7 +112,8 @@ INSTANTIATE_TEST_SUITE_P(
             "kitti_odometry/sequences/01_thin3", ".bin", GridProjection::spherical, {}},
         Source{"kitti_raw", ".bin", GridProjection::spherical, {}},
         Source{"balm_realworld", ".bin", GridProjection::spherical, {}},
-        Source{"kitti_07_submaps", ".bin", {}, withoutReflectance()},
+        // Several scans from several places: layered in every projection.
+        Source{"kitti_07_submaps", ".bin", {}, withoutReflectance(), 0.25},
         Source{
             "tum_fr1_desk/depth", ".png", GridProjection::perspective, withScale(5000)},
         Source{"icl_nuim_lr_kt0/depth",
@@ -143,15 +146,16 @@ TEST(RealClouds, sunDepthBitsAreRotated)
   PCL_NURBS_DATA_OR_SKIP(image, "single_frames/SUN_depth.png");
   CloudReadOptions options;
   options.rotated_depth_bits = true;
-  float nearest = 1e9F;
-  float farthest = 0.0F;
-  for (const PointXYZ& point : *readCloud(image.string(), options).cloud)
-    if (!std::isnan(point.z)) {
-      nearest = std::min(nearest, point.z);
-      farthest = std::max(farthest, point.z);
-    }
-  EXPECT_NEAR(nearest, 1.1F, 0.1F);
-  EXPECT_NEAR(farthest, 8.8F, 0.1F);
+  const InputCloud input = readCloud(image.string(), options);
+  std::vector<float> depths;
+  for (const PointXYZ& point : *input.cloud)
+    if (!std::isnan(point.z))
+      depths.push_back(point.z);
+  std::sort(depths.begin(), depths.end());
+  // A corridor; without the rotation its depths would reach to 65 m.
+  EXPECT_NEAR(static_cast<double>(depths.size()) / input.cloud->size(), 0.82, 0.01);
+  EXPECT_NEAR(depths[depths.size() / 100], 1.1F, 0.1F);
+  EXPECT_NEAR(depths[depths.size() * 99 / 100], 8.8F, 0.1F);
 }
 
 /** Share of the labelled pixels that lie in a group whose main label is theirs. */
