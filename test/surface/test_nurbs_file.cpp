@@ -27,14 +27,6 @@ readBytes(const std::string& path)
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void
-writeBytes(const std::string& path, const Bytes& bytes)
-{
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-}
-
 SurfaceModel
 roundTrip(const SurfaceModel& model, const NurbsFileOptions& options)
 {
