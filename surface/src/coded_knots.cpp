@@ -139,7 +139,8 @@ KnotCodec::codeLattice(Coder& coder, CodedKnots& knots, CodecBudget& budget)
     place_step_.code(coder, step);
     require(step <= std::uint64_t{1} << kMaxLatticeBits, "knot outside of the lattice");
     place = before + static_cast<std::int64_t>(step);
-    require(place < std::int64_t{1} << knots.lattice_bits, "knot outside of the domain");
+    require(place < std::int64_t{1} << knots.lattice_bits,
+            "knot outside of the domain");
     before = place;
   }
 }

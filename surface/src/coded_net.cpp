@@ -76,7 +76,8 @@ GrevilleGrid::halfWidth(int direction) const
 Points
 ExactNet::decoded(const GrevilleGrid& greville) const
 {
-  require(values.size() == 4 * static_cast<std::size_t>(rows(greville)) * cols(greville),
+  require(values.size() ==
+              4 * static_cast<std::size_t>(rows(greville)) * cols(greville),
           "wrong number of control values");
   return Eigen::Map<const Points>(
       values.data(), 4, static_cast<Eigen::Index>(values.size() / 4));

@@ -59,12 +59,12 @@ struct GeneralNet {
 struct HeightNet {
   std::int64_t step = 0;
   bool orthogonal = true;
-  std::array<double, 2> scales{1.0, 1.0};  /**< lengths of a and b, if orthogonal */
-  int dropped = 0;                         /**< largest part of the quaternion */
-  std::array<std::int64_t, 3> rotation{};  /**< the other parts, if orthogonal */
-  std::array<std::int64_t, 6> axes{};      /**< a and b, if not */
+  std::array<double, 2> scales{1.0, 1.0}; /**< lengths of a and b, if orthogonal */
+  int dropped = 0;                        /**< largest part of the quaternion */
+  std::array<std::int64_t, 3> rotation{}; /**< the other parts, if orthogonal */
+  std::array<std::int64_t, 6> axes{};     /**< a and b, if not */
   std::array<std::int64_t, 3> origin{};
-  bool flat = false;                       /**< all heights are zero */
+  bool flat = false; /**< all heights are zero */
   IntegerGrid heights;
 
   struct Frame {

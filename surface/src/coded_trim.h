@@ -13,7 +13,8 @@
 namespace pcl {
 namespace nurbs {
 
-/** \brief The parameters a + k s that one coordinate of a polygon's corners may have. */
+/** \brief The parameters a + k s that one coordinate of a polygon's corners may have.
+ */
 struct TrimLattice {
   std::int64_t cells = 0; /**< > 0: the domain in that many parts; 0: as follows */
   double origin = 0.0;

@@ -19,7 +19,10 @@ namespace nurbs {
 /** \brief A value and where it stands, so that errors can say so. */
 class JsonNode {
 public:
-  JsonNode(const nlohmann::json& value, std::string path) : value_(value), path_(std::move(path)) {}
+  JsonNode(const nlohmann::json& value, std::string path)
+      : value_(value), path_(std::move(path))
+  {
+  }
 
   [[noreturn]] void
   fail(const std::string& reason) const

@@ -53,7 +53,8 @@ homogeneousFrom(const JsonNode& owner, std::size_t count)
     weights = numbers(owner.at("weights"));
   if (weights.size() != count)
     owner.at("weights").fail("has " + std::to_string(weights.size()) +
-                             " numbers, there are " + std::to_string(count) + " points");
+                             " numbers, there are " + std::to_string(count) +
+                             " points");
   Eigen::Matrix<double, Dim + 1, Eigen::Dynamic> result(
       Dim + 1, static_cast<Eigen::Index>(count));
   for (std::size_t i = 0; i < count; ++i) {
@@ -71,8 +72,8 @@ loopFrom(const JsonNode& node)
   for (std::size_t i = 0; i < node.size(); ++i) {
     const JsonNode curve = node.at(i);
     const KnotVector knots = knotsFrom(curve, "degree", "knots");
-    const auto points = homogeneousFrom<2>(
-        curve, static_cast<std::size_t>(knots.numControlPoints()));
+    const auto points =
+        homogeneousFrom<2>(curve, static_cast<std::size_t>(knots.numControlPoints()));
     curves.push_back(made(curve, [&] { return NurbsCurve2(knots, points); }));
   }
   return made(node, [&] { return TrimLoop(curves); });
@@ -114,8 +115,8 @@ patchFrom(const JsonNode& node)
   if (node.has("trims"))
     for (std::size_t i = 0; i < node.at("trims").size(); ++i)
       loops.push_back(loopFrom(node.at("trims").at(i)));
-  patch.geometry = made(
-      node, [&] { return TrimmedSurface(std::move(surface), std::move(loops)); });
+  patch.geometry =
+      made(node, [&] { return TrimmedSurface(std::move(surface), std::move(loops)); });
   if (node.has("label"))
     patch.label = node.at("label").integer<std::uint32_t>();
   if (node.has("quality"))
@@ -156,7 +157,8 @@ fromJson(std::string_view text)
     if (!root.at("metadata").value().is_object())
       root.at("metadata").fail("is not an object");
     for (const auto& item : root.at("metadata").value().items())
-      model.metadata[item.key()] = JsonNode(item.value(), "/metadata/" + item.key()).text();
+      model.metadata[item.key()] =
+          JsonNode(item.value(), "/metadata/" + item.key()).text();
   }
   const JsonNode patches = root.at("patches");
   for (std::size_t i = 0; i < patches.size(); ++i)

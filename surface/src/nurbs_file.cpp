@@ -119,7 +119,9 @@ NurbsFileWriter::finish()
 }
 
 NurbsFileReader::NurbsFileReader(std::string path, NurbsFileLimits limits)
-    : path_(std::move(path)), limits_(limits), numbers_left_(limits.numbers),
+    : path_(std::move(path)),
+      limits_(limits),
+      numbers_left_(limits.numbers),
       file_(path_, std::ios::binary | std::ios::ate)
 {
   if (!file_)

@@ -33,7 +33,8 @@ struct SectionHeader {
 std::vector<std::uint8_t>
 fileHeader();
 
-/** \brief Empty if the bytes are the header of a file that can be read, else why not. */
+/** \brief Empty if the bytes are the header of a file that can be read, else why not.
+ */
 std::string
 fileHeaderProblem(const std::array<std::uint8_t, kFileHeaderSize>& bytes);
 

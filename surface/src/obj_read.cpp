@@ -18,7 +18,7 @@ namespace {
 
 using Words = ObjScanner::Words;
 
-constexpr double kDomainTolerance = 1e-9; // of the length of the domain
+constexpr double kDomainTolerance = 1e-9;  // of the length of the domain
 constexpr double kClosingTolerance = 1e-6; // of the extent of the surface's domain
 
 class ObjReader {
@@ -100,7 +100,8 @@ private:
   {
     if (words.size() < 2)
       fail("a degree is missing");
-    degrees_ = {scanner_.integer(words[1]), scanner_.integer(words[words.size() > 2 ? 2 : 1])};
+    degrees_ = {scanner_.integer(words[1]),
+                scanner_.integer(words[words.size() > 2 ? 2 : 1])};
   }
 
   void

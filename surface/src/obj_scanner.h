@@ -121,7 +121,8 @@ private:
   split(std::string_view line)
   {
     Words words;
-    for (std::size_t at = line.find_first_not_of(kBlanks); at != std::string_view::npos;) {
+    for (std::size_t at = line.find_first_not_of(kBlanks);
+         at != std::string_view::npos;) {
       const std::size_t end = std::min(line.find_first_of(kBlanks, at), line.size());
       words.push_back(line.substr(at, end - at));
       at = line.find_first_not_of(kBlanks, end);

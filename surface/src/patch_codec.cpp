@@ -38,11 +38,11 @@ fastest(const NurbsSurface& surface, const GrevilleGrid& greville, int direction
       const int k = direction == 0 ? i : j;
       const double width = abscissae[k] - abscissae[k - 1];
       if (width > 0.0)
-        speed = std::max(speed,
-                         (surface.controlPoint(i, j) -
-                          surface.controlPoint(i - step_u, j - step_v))
-                                 .norm() /
-                             width);
+        speed = std::max(
+            speed,
+            (surface.controlPoint(i, j) - surface.controlPoint(i - step_u, j - step_v))
+                    .norm() /
+                width);
     }
   return speed;
 }
@@ -138,7 +138,8 @@ public:
     auto loops = static_cast<std::uint64_t>(patch.loops.size());
     loops_.code(coder, loops);
     charge<Coder>(budget, loops);
-    charge<Coder>(budget, kNumbersPerPatch / 2 * std::min<std::uint64_t>(loops, 1 << 24));
+    charge<Coder>(budget,
+                  kNumbersPerPatch / 2 * std::min<std::uint64_t>(loops, 1 << 24));
     patch.loops.resize(static_cast<std::size_t>(loops));
     for (CodedLoop& loop : patch.loops)
       trims_.code(coder, loop, budget);
@@ -195,7 +196,8 @@ NurbsFileOptions::stepFor(const PatchQuality& quality) const
 {
   if (step > 0.0)
     return step;
-  const double factor = std::sqrt(5.0 * ((1.0 + rmse_share) * (1.0 + rmse_share) - 1.0));
+  const double factor =
+      std::sqrt(5.0 * ((1.0 + rmse_share) * (1.0 + rmse_share) - 1.0));
   for (double error : {quality.rmse, quality.noise})
     if (error > 0.0 && std::isfinite(error))
       return factor * error;

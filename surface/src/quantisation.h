@@ -37,7 +37,8 @@ codeFromStep(double step)
   int exponent = 0;
   const double fraction = std::frexp(step, &exponent); // in [0.5, 1)
   const auto quarter = static_cast<std::int64_t>(8.0 * fraction) - 4;
-  return std::clamp<std::int64_t>(4 * (std::int64_t{exponent} - 1) + quarter, -2000, 2000);
+  return std::clamp<std::int64_t>(
+      4 * (std::int64_t{exponent} - 1) + quarter, -2000, 2000);
 }
 
 /** \brief The nearest multiple of the largest power of two that is not above

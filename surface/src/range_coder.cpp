@@ -157,11 +157,11 @@ DoubleModel::code(Coder& coder, double& value)
   const std::uint64_t bits = bitsOf(value);
   bool negative = bits >> 63 != 0;
   coder.bit(negative_, negative);
-  std::int64_t step =
-      static_cast<std::int64_t>(bits >> 52 & 0x7FF) - last_exponent_;
+  std::int64_t step = static_cast<std::int64_t>(bits >> 52 & 0x7FF) - last_exponent_;
   exponent_step_.code(coder, step);
-  const auto exponent = (static_cast<std::uint64_t>(last_exponent_) +
-                         static_cast<std::uint64_t>(step)) & 0x7FF;
+  const auto exponent =
+      (static_cast<std::uint64_t>(last_exponent_) + static_cast<std::uint64_t>(step)) &
+      0x7FF;
   last_exponent_ = static_cast<std::int64_t>(exponent);
   std::uint64_t mantissa = bits & ((1ULL << 52) - 1);
   int count = 52;

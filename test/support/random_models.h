@@ -134,10 +134,8 @@ heightField(const Eigen::Affine3d& pose, int spans = 17)
 inline Eigen::Affine3d
 rigidPose(RandomNurbs& random)
 {
-  const Eigen::Quaterniond turn(random.normal(1.0),
-                                random.normal(1.0),
-                                random.normal(1.0),
-                                random.normal(1.0));
+  const Eigen::Quaterniond turn(
+      random.normal(1.0), random.normal(1.0), random.normal(1.0), random.normal(1.0));
   const Eigen::Vector3d shift(
       random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-2, 2));
   return Eigen::Translation3d(shift) * turn.normalized();

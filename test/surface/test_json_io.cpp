@@ -67,8 +67,7 @@ TEST(JsonIo, rationalModelsComeBackToRounding)
     EXPECT_EQ(after.surface().homogeneousPoints().row(3), points.row(3));
     ASSERT_EQ(after.loops().size(), before.loops().size());
     for (std::size_t k = 0; k < before.loops().size(); ++k)
-      EXPECT_NEAR(
-          after.loops()[k].signedArea(), before.loops()[k].signedArea(), 1e-14);
+      EXPECT_NEAR(after.loops()[k].signedArea(), before.loops()[k].signedArea(), 1e-14);
   }
 }
 
@@ -79,9 +78,9 @@ TEST(JsonIo, smallHandWrittenFileIsRead)
   const NurbsSurface& surface = model.patches[0].geometry.surface();
   EXPECT_EQ(surface.evaluate(0.5, 1.0), Eigen::Vector3d(0.5, 1.0, 0.125));
   EXPECT_EQ(model.patches[0].label, 0U);
-  const std::string nested =
-      replaced(kBilinear, "[0,0,0, 0,2,0, 1,0,0, 1,2,0.5]",
-               "[[[0,0,0], [0,2,0]], [[1,0,0], [1,2,0.5]]]");
+  const std::string nested = replaced(kBilinear,
+                                      "[0,0,0, 0,2,0, 1,0,0, 1,2,0.5]",
+                                      "[[[0,0,0], [0,2,0]], [[1,0,0], [1,2,0.5]]]");
   EXPECT_EQ(fromJson(nested).patches[0].geometry.surface().homogeneousPoints(),
             surface.homogeneousPoints());
 }
@@ -104,7 +103,8 @@ TEST(JsonIo, errorsNameThePlace)
   EXPECT_EQ(problem("\"patches\"", "\"patch\""), "/: has no \"patches\"");
   EXPECT_EQ(problem("[0, 0, 1, 1]", "[0, 0, 1, \"1\"]"),
             "/patches/0/knots_u/3: is not a number");
-  EXPECT_EQ(problem("[0, 0, 1, 1]", "[0, 2, 1, 1]").rfind("/patches/0/knots_u: ", 0), 0U);
+  EXPECT_EQ(problem("[0, 0, 1, 1]", "[0, 2, 1, 1]").rfind("/patches/0/knots_u: ", 0),
+            0U);
   EXPECT_EQ(problem("1,2,0.5", "1,2"),
             "/patches/0/points: has 11 numbers, the knots need 12");
   EXPECT_EQ(problem("\"degree_u\": 1", "\"degree_u\": 10"),
@@ -113,11 +113,12 @@ TEST(JsonIo, errorsNameThePlace)
             "/patches/0/degree_u: is not an integer from 0 to 9");
   EXPECT_EQ(problem("\"points\"", "\"weights\": [1, 1, 1], \"points\""),
             "/patches/0/weights: has 3 numbers, there are 4 points");
-  EXPECT_EQ(
-      problem("\"points\"", "\"weights\": [1, 1, 1, 0], \"points\"").rfind("/patches/0", 0),
-      0U);
-  EXPECT_EQ(problem("\"points\"", "\"label\": -3, \"points\"").rfind("/patches/0/label", 0),
+  EXPECT_EQ(problem("\"points\"", "\"weights\": [1, 1, 1, 0], \"points\"")
+                .rfind("/patches/0", 0),
             0U);
+  EXPECT_EQ(
+      problem("\"points\"", "\"label\": -3, \"points\"").rfind("/patches/0/label", 0),
+      0U);
   EXPECT_EQ(problem("\"points\"", "\"trims\": [[]], \"points\"")
                 .rfind("/patches/0/trims/0: ", 0),
             0U);

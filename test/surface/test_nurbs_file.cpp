@@ -116,14 +116,14 @@ TEST(NurbsFile, quantisationAddsLessThanTenPercentToRmse)
       SurfacePatch patch;
       const Eigen::Affine3d pose = test::rigidPose(random);
       patch.geometry = TrimmedSurface(
-          i % 2 == 0 ? test::heightField(pose)
-                     : NurbsSurface::fromControlPoints(
-                           KnotVector::bezier(1, -2, 2),
-                           KnotVector::bezier(1, -1, 1),
-                           (Eigen::Matrix3Xd(3, 4) << -2, -2, 2, 2, -1, 1, -1, 1, 0, 0,
-                            0, 0)
-                               .finished())
-                           .transformed(pose));
+          i % 2 == 0
+              ? test::heightField(pose)
+              : NurbsSurface::fromControlPoints(
+                    KnotVector::bezier(1, -2, 2),
+                    KnotVector::bezier(1, -1, 1),
+                    (Eigen::Matrix3Xd(3, 4) << -2, -2, 2, 2, -1, 1, -1, 1, 0, 0, 0, 0)
+                        .finished())
+                    .transformed(pose));
       patch.quality.rmse = noise;
       model.patches.push_back(patch);
     }

@@ -111,7 +111,8 @@ TEST(ObjIo, loopsSayWhetherTheyAreHoles)
 
 TEST(ObjIo, meshesAreSkipped)
 {
-  EXPECT_TRUE(fromObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n").patches.empty());
+  EXPECT_TRUE(
+      fromObj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n").patches.empty());
   EXPECT_TRUE(fromObj("").patches.empty());
 }
 
@@ -128,7 +129,8 @@ TEST(ObjIo, errorsNameTheLine)
   EXPECT_EQ(problemOf("surf 0 1", "surf 0 0.5").rfind("line 25: a part", 0), 0U);
   EXPECT_EQ(problemOf("hole 0 4 1", "hole 0 3 1").rfind("line 25: a part", 0), 0U);
   EXPECT_EQ(problemOf("hole 0 4 1", "hole 0 4").rfind("line 24: ", 0), 0U);
-  EXPECT_EQ(problemOf("parm u 0 0 0 1 1 1", "parm w 0 0 0 1 1 1").rfind("line 22", 0), 0U);
+  EXPECT_EQ(problemOf("parm u 0 0 0 1 1 1", "parm w 0 0 0 1 1 1").rfind("line 22", 0),
+            0U);
   EXPECT_EQ(problemOf("parm u 0 0 0 1 1 1", "parm u 0 0 0 1 1 -1").rfind("line 25", 0),
             0U);
   EXPECT_EQ(problemOf("\nend\nf", "\nf").rfind("line 25", 0), 0U);

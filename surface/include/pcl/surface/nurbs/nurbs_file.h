@@ -99,7 +99,8 @@ struct NurbsIndexEntry {
 /** \brief Patches in the coding of a patch section: for formats that embed them.
  * \throws std::invalid_argument for options or trimming loops that cannot be coded */
 PCL_NURBS_SURFACE_EXPORT std::vector<std::uint8_t>
-encodePatches(const std::vector<SurfacePatch>& patches, const NurbsFileOptions& options);
+encodePatches(const std::vector<SurfacePatch>& patches,
+              const NurbsFileOptions& options);
 
 /** \brief Inverse of encodePatches().
  * \param[in] bytes untrusted
@@ -115,8 +116,8 @@ decodePatches(const std::vector<std::uint8_t>& bytes, std::uint64_t& numbers);
  * sections that were complete and recoverNurbsFile() reads them. */
 class PCL_NURBS_SURFACE_EXPORT NurbsFileWriter {
 public:
-  /** \throws std::runtime_error if the file cannot be written, std::invalid_argument for
-   * options out of range */
+  /** \throws std::runtime_error if the file cannot be written, std::invalid_argument
+   * for options out of range */
   NurbsFileWriter(std::string path,
                   const std::string& frame_id,
                   NurbsFileOptions options = {});
@@ -133,8 +134,8 @@ public:
   void
   appendMetadata(const std::map<std::string, std::string>& metadata);
 
-  /** \brief Append a section of another type, zstd-packed where that is shorter. Readers
-   * that do not know the type skip it. */
+  /** \brief Append a section of another type, zstd-packed where that is shorter.
+   * Readers that do not know the type skip it. */
   void
   appendSection(const NurbsSectionType& type, const std::vector<std::uint8_t>& bytes);
 

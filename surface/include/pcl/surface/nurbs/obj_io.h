@@ -22,17 +22,16 @@ public:
  *
  * Kept: knots, control points, weights, trimming curves, labels (as groups `label_N`).
  * Lost: frame, metadata, quality. Numbers have the digits that give them back exactly;
- * points are Cartesian, so weighted points may differ by one rounding. Counter-clockwise
- * loops become `trim`, clockwise ones `hole`. */
+ * points are Cartesian, so weighted points may differ by one rounding.
+ * Counter-clockwise loops become `trim`, clockwise ones `hole`. */
 PCL_NURBS_SURFACE_EXPORT std::string
 toObj(const SurfaceModel& model);
 
 /** \brief The B-spline surfaces of an OBJ text.
  *
- * Meshes, curves in space, names and materials are skipped. Surfaces and trimming curves
- * must be used over their whole domain.
- * \param[in] text untrusted
- * \throws ObjIoError naming the line that is wrong */
+ * Meshes, curves in space, names and materials are skipped. Surfaces and trimming
+ * curves must be used over their whole domain. \param[in] text untrusted \throws
+ * ObjIoError naming the line that is wrong */
 PCL_NURBS_SURFACE_EXPORT SurfaceModel
 fromObj(std::string_view text);
 
