@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 
-#include "coded_net.h"
+#include "affine_structure.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 namespace pcl {
@@ -14,49 +12,6 @@ namespace {
 using Points = NurbsSurface::HomogeneousPoints;
 
 constexpr double kExact = 1e-12; // relative: rounding of the writer's own arithmetic
-
-/** Rows of \a points as affine functions of the Greville abscissae, plus one scalar per
- * point along one direction. */
-struct AffinePlusScalar {
-  Eigen::MatrixXd affine;    // rows x 3: value at the centre, slopes in g and k
-  Eigen::VectorXd direction; // unit length; zero if the affine part is all there is
-};
-
-Eigen::Matrix3Xd
-affineBasis(const GrevilleGrid& greville)
-{
-  const auto& [g, k] = greville.values;
-  Eigen::Matrix3Xd basis(3, static_cast<Eigen::Index>(g.size() * k.size()));
-  Eigen::Index column = 0;
-  for (double u : g)
-    for (double v : k)
-      basis.col(column++) << 1.0, u - greville.centre(0), v - greville.centre(1);
-  return basis;
-}
-
-/** Empty if what is left beside the affine part needs more than one scalar. */
-std::optional<AffinePlusScalar>
-affinePlusScalar(const Eigen::MatrixXd& points,
-                 const GrevilleGrid& greville,
-                 double tolerance)
-{
-  const Eigen::Matrix3Xd basis = affineBasis(greville);
-  const Eigen::Matrix3d gram = basis * basis.transpose();
-  AffinePlusScalar result;
-  result.affine =
-      gram.ldlt().solve(basis * points.transpose()).transpose(); // least squares
-  Eigen::MatrixXd rest = points - result.affine * basis;
-  result.direction = Eigen::VectorXd::Zero(points.rows());
-  if (rest.cwiseAbs().maxCoeff() <= tolerance)
-    return result;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rest * rest.transpose());
-  const Eigen::VectorXd direction = solver.eigenvectors().rightCols<1>();
-  rest -= direction * (direction.transpose() * rest);
-  if (!(rest.cwiseAbs().maxCoeff() <= tolerance))
-    return std::nullopt;
-  result.direction = direction;
-  return result;
-}
 
 Eigen::Matrix3Xd
 cartesian(const Points& points)

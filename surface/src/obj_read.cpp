@@ -204,25 +204,13 @@ private:
       fail("a part of a curve or surface cannot be read, only the whole");
   }
 
-  /** Homogeneous from Cartesian point and weight. */
-  template <class Vector>
-  Vector
-  weighted(Vector point) const
-  {
-    const Eigen::Index last = point.size() - 1;
-    if (!is_rational_)
-      point(last) = 1.0;
-    point.head(last) *= point(last);
-    return point;
-  }
-
   NurbsCurve2
   finishedCurve() const
   {
     NurbsCurve2::HomogeneousPoints points(3, static_cast<Eigen::Index>(places_.size()));
     for (std::size_t i = 0; i < places_.size(); ++i)
       points.col(static_cast<Eigen::Index>(i)) =
-          weighted(parameter_vertices_[places_[i]]);
+          homogeneous(parameter_vertices_[places_[i]], is_rational_);
     return NurbsCurve2(KnotVector(degrees_[0], knots_[0]), std::move(points));
   }
 
@@ -242,7 +230,7 @@ private:
     for (std::size_t j = 0; j < cols; ++j)
       for (std::size_t i = 0; i < rows; ++i)
         points.col(static_cast<Eigen::Index>(i * cols + j)) =
-            weighted(vertices_[places_[j * rows + i]]);
+            homogeneous(vertices_[places_[j * rows + i]], is_rational_);
     return NurbsSurface(u, v, std::move(points));
   }
 

@@ -18,6 +18,18 @@
 namespace pcl {
 namespace nurbs {
 
+/** \brief Homogeneous from Cartesian point and weight; without weights all are 1. */
+template <class Vector>
+Vector
+homogeneous(Vector point, bool is_rational)
+{
+  const Eigen::Index last = point.size() - 1;
+  if (!is_rational)
+    point(last) = 1.0;
+  point.head(last) *= point(last);
+  return point;
+}
+
 /** \brief Statements of an OBJ text as lists of words, with comments taken out and
  * continued lines joined; and the words as numbers. */
 class ObjScanner {

@@ -188,6 +188,10 @@ private:
   [[noreturn]] void
   fail(const NurbsSectionType& type, const std::string& reason) const;
 
+  /** \brief Bytes and type of the section that starts here. */
+  std::vector<std::uint8_t>
+  readStored(NurbsSection& section);
+
   void
   readBytes(void* target, std::size_t size, const NurbsSectionType& type);
 

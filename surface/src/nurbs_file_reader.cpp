@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 
-#include <pcl/surface/nurbs/atomic_file.h>
 #include <pcl/surface/nurbs/nurbs_file.h>
 
 #include "nurbs_section.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <iterator>
 #include <utility>
 
 namespace pcl {
 namespace nurbs {
 namespace {
 
-/** Few enough to read one part of a map, enough for the models to learn. */
-constexpr std::size_t kPatchesPerSection = 4096;
-constexpr NurbsSectionType kFileHeader{'f', 'i', 'l', 'e'}; // for messages only
+// For messages only:
+constexpr NurbsSectionType kFileHeader{'f', 'i', 'l', 'e'};
+constexpr NurbsSectionType kSomeSection{'?', '?', '?', '?'};
 
 std::string
 nameOf(const NurbsSectionType& type)
@@ -25,14 +24,6 @@ nameOf(const NurbsSectionType& type)
   for (char letter : type)
     name += letter >= 32 && letter < 127 ? letter : '?';
   return name;
-}
-
-std::vector<std::uint8_t>
-headBytes(const std::string& frame_id)
-{
-  ByteWriter writer;
-  writer.text(frame_id);
-  return writer.bytes;
 }
 
 void
@@ -46,12 +37,6 @@ parseMetadata(const std::vector<std::uint8_t>& bytes,
   }
 }
 
-std::string
-partName(const std::string& path)
-{
-  return path + ".part";
-}
-
 } // namespace
 
 NurbsFileError::NurbsFileError(const std::string& path,
@@ -60,62 +45,6 @@ NurbsFileError::NurbsFileError(const std::string& path,
     : std::runtime_error(path + ": section " + section + ": " + reason),
       section_(section)
 {
-}
-
-NurbsFileWriter::NurbsFileWriter(std::string path,
-                                 const std::string& frame_id,
-                                 NurbsFileOptions options)
-    : path_(std::move(path)), options_(options)
-{
-  options_.validate();
-  file_.open(partName(path_), std::ios::binary | std::ios::trunc);
-  writeBytes(fileHeader());
-  writeBytes(packedSection(kHeaderSection, headBytes(frame_id), SectionPacking::None));
-}
-
-void
-NurbsFileWriter::writeBytes(const std::vector<std::uint8_t>& bytes)
-{
-  file_.write(reinterpret_cast<const char*>(bytes.data()),
-              static_cast<std::streamsize>(bytes.size()));
-  file_.flush();
-  if (!file_)
-    throw std::runtime_error("cannot write " + partName(path_));
-  size_ += bytes.size();
-}
-
-void
-NurbsFileWriter::appendPatches(const std::vector<SurfacePatch>& patches)
-{
-  const NurbsIndexEntry entry = indexEntry(patches, size_);
-  writeBytes(packedSection(
-      kPatchSection, encodePatches(patches, options_), SectionPacking::None));
-  index_.push_back(entry);
-}
-
-void
-NurbsFileWriter::appendMetadata(const std::map<std::string, std::string>& metadata)
-{
-  appendSection(kMetadataSection, metadataBytes(metadata));
-}
-
-void
-NurbsFileWriter::appendSection(const NurbsSectionType& type,
-                               const std::vector<std::uint8_t>& bytes)
-{
-  writeBytes(packedSection(type, bytes, SectionPacking::Zstd));
-}
-
-void
-NurbsFileWriter::finish()
-{
-  writeBytes(
-      packedSection(kIndexSection, indexBytes(index_, size_), SectionPacking::None));
-  file_.close();
-  std::error_code error;
-  std::filesystem::rename(partName(path_), path_, error);
-  if (!file_ || error)
-    throw std::runtime_error("cannot write " + path_);
 }
 
 NurbsFileReader::NurbsFileReader(std::string path, NurbsFileLimits limits)
@@ -151,19 +80,14 @@ NurbsFileReader::readBytes(void* target, std::size_t size, const NurbsSectionTyp
     fail(type, "cannot be read to its end");
 }
 
-bool
-NurbsFileReader::next(NurbsSection& section)
+std::vector<std::uint8_t>
+NurbsFileReader::readStored(NurbsSection& section)
 {
-  if (finished_)
-    return false;
-  section.offset = static_cast<std::uint64_t>(file_.tellg());
   const std::uint64_t left = file_size_ - section.offset;
-  if (left == 0)
-    fail(kIndexSection, "is missing: the file was not finished");
   std::array<std::uint8_t, kSectionHeaderSize> header_bytes{};
   if (left < kSectionHeaderSize + kSectionCrcSize)
-    fail({'?', '?', '?', '?'}, "ends too early");
-  readBytes(header_bytes.data(), header_bytes.size(), kFileHeader);
+    fail(kSomeSection, "ends too early");
+  readBytes(header_bytes.data(), header_bytes.size(), kSomeSection);
   const SectionHeader header = parsedSectionHeader(header_bytes);
   section.type = header.type;
   if (header.stored_size > left - kSectionHeaderSize - kSectionCrcSize)
@@ -178,13 +102,24 @@ NurbsFileReader::next(NurbsSection& section)
       sectionCrc(header_bytes, stored))
     fail(header.type, "check sum is wrong");
   try {
-    section.bytes = unpackedSection(header, std::move(stored));
+    return unpackedSection(header, std::move(stored));
   } catch (const std::runtime_error& error) {
     fail(header.type, error.what());
   }
-  finished_ = header.type == kIndexSection;
+}
+
+bool
+NurbsFileReader::next(NurbsSection& section)
+{
+  if (finished_)
+    return false;
+  section.offset = static_cast<std::uint64_t>(file_.tellg());
+  if (section.offset == file_size_)
+    fail(kIndexSection, "is missing: the file was not finished");
+  section.bytes = readStored(section);
+  finished_ = section.type == kIndexSection;
   if (finished_ && static_cast<std::uint64_t>(file_.tellg()) != file_size_)
-    fail(header.type, "is followed by more bytes");
+    fail(section.type, "is followed by more bytes");
   return true;
 }
 
@@ -240,36 +175,6 @@ NurbsFileReader::decode(const NurbsSection& section, SurfaceModel& model)
   } catch (const std::exception& error) {
     fail(section.type, error.what());
   }
-}
-
-void
-writeNurbsFile(const std::string& path,
-               const SurfaceModel& model,
-               const NurbsFileOptions& options)
-{
-  AtomicFile file(path);
-  std::uint64_t size = 0;
-  const auto write = [&](const std::vector<std::uint8_t>& bytes) {
-    file.write(bytes.data(), bytes.size());
-    size += bytes.size();
-  };
-  write(fileHeader());
-  write(packedSection(kHeaderSection, headBytes(model.frame_id), SectionPacking::None));
-  std::vector<NurbsIndexEntry> index;
-  for (std::size_t i = 0; i < model.patches.size(); i += kPatchesPerSection) {
-    const auto first = model.patches.begin() + static_cast<std::ptrdiff_t>(i);
-    const std::size_t count = std::min(kPatchesPerSection, model.patches.size() - i);
-    const std::vector<SurfacePatch> patches(first,
-                                            first + static_cast<std::ptrdiff_t>(count));
-    index.push_back(indexEntry(patches, size));
-    write(packedSection(
-        kPatchSection, encodePatches(patches, options), SectionPacking::None));
-  }
-  if (!model.metadata.empty())
-    write(packedSection(
-        kMetadataSection, metadataBytes(model.metadata), SectionPacking::Zstd));
-  write(packedSection(kIndexSection, indexBytes(index, size), SectionPacking::None));
-  file.commit();
 }
 
 SurfaceModel
