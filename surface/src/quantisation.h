@@ -36,8 +36,8 @@ inline std::int64_t
 codeFromStep(double step)
 {
   int exponent = 0;
-  const double bounded = std::clamp(step, 1e-150, 1e150);
-  const double fraction = std::frexp(bounded, &exponent); // in [0.5, 1)
+  const double bounded = step > 1e-150 ? std::min(step, 1e150) : 1e-150; // NaN, too
+  const double fraction = std::frexp(bounded, &exponent);                // in [0.5, 1)
   const auto quarter = static_cast<std::int64_t>(8.0 * fraction) - 4;
   return 4 * (std::int64_t{exponent} - 1) + quarter;
 }
