@@ -30,15 +30,16 @@ stepFromCode(std::int64_t code)
                     static_cast<int>((code - quarter) / 4) - 2);
 }
 
-/** \brief Code of the largest step that is not above \a step > 0. */
+/** \brief Code of the largest step that is not above \a step, within the range of the
+ * codes. */
 inline std::int64_t
 codeFromStep(double step)
 {
   int exponent = 0;
-  const double fraction = std::frexp(step, &exponent); // in [0.5, 1)
+  const double bounded = step > 1e-150 ? std::min(step, 1e150) : 1e-150; // NaN, too
+  const double fraction = std::frexp(bounded, &exponent);                // in [0.5, 1)
   const auto quarter = static_cast<std::int64_t>(8.0 * fraction) - 4;
-  return std::clamp<std::int64_t>(
-      4 * (std::int64_t{exponent} - 1) + quarter, -2000, 2000);
+  return 4 * (std::int64_t{exponent} - 1) + quarter;
 }
 
 /** \brief The nearest multiple of the largest power of two that is not above

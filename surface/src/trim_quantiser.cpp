@@ -95,7 +95,7 @@ latticeFor(const Corners& corners,
   if (found && found->spacing >= 0.5 * tolerance)
     return *found;
   const double cells = std::ceil(knots.domainLength() / tolerance);
-  return {static_cast<std::int64_t>(std::clamp(cells, 1.0, 1e12)), 0.0, 1.0};
+  return {cells > 1.0 ? static_cast<std::int64_t>(std::min(cells, 1e12)) : 1, 0.0, 1.0};
 }
 
 bool

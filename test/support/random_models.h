@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +48,13 @@ public:
 private:
   std::filesystem::path path_;
 };
+
+inline std::vector<std::uint8_t>
+readBytes(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 /** Star-shaped polygon around the middle of the domain. */
 inline TrimLoop

@@ -11,21 +11,14 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 
 namespace {
 
 using namespace pcl::nurbs;
 using pcl::nurbs::test::RandomNurbs;
+using pcl::nurbs::test::readBytes;
 using pcl::nurbs::test::TemporaryFile;
 using Bytes = std::vector<std::uint8_t>;
-
-Bytes
-readBytes(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 void
 writeBytes(const std::string& path, const Bytes& bytes)
