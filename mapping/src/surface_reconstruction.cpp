@@ -238,6 +238,8 @@ reconstructSurfaces(const GridPoints& points,
 #pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
   for (std::size_t k = 0; k < segments.size(); ++k) {
     const std::size_t size = segments[k].size();
+    if (options.stop && options.stop())
+      continue;
     found[k] = SegmentReconstructor(input).run(std::move(segments[k]));
 #pragma omp critical(pcl_nurbs_reconstruction_progress)
     {

@@ -17,7 +17,7 @@ namespace pcl {
 namespace nurbs {
 
 /** \brief Options of reconstructSurfaces(). */
-struct ReconstructionOptions {
+struct PCL_NURBS_MAPPING_EXPORT ReconstructionOptions {
   /** Search for degrees and knots; its max_control_points limits each patch. */
   KnotSearchOptions knots;
   /** Fit of each patch. */
@@ -34,6 +34,8 @@ struct ReconstructionOptions {
   int threads = 1;
   /** Called with the share of points done, 0 to 1, from one thread at a time. */
   std::function<void(double)> progress;
+  /** Asked before each segment; the rest is left out when it says true. */
+  std::function<bool()> stop;
 
   /** \brief Independent errors for each point are asked for by 1; a Kinect's errors are
    * alike over about 50 pixels. See KnotSearchOptions::points_per_sample. */

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "settings.h"
+
+#include "run_tool.h"
+
+#include <boost/program_options.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <set>
+
+namespace pcl_nurbs_tools {
+namespace {
+
+namespace po = boost::program_options;
+
+/** Options that are words or numbers before they have a meaning. */
+struct RawOptions {
+  std::string intrinsics;
+  std::string projection;
+  std::string sensor;
+  std::string criterion;
+  std::string obj;
+  std::string size;
+};
+
+void
+addInputOptions(Settings& settings, RawOptions& raw, po::options_description& description)
+{
+  description.add_options()(
+      "demo", po::bool_switch(&settings.demo), "use a generated room instead of IN")(
+      "intrinsics",
+      po::value(&raw.intrinsics)->value_name("fx,fy,cx,cy"),
+      "camera of a depth image, pixels (default: 525 pixels for 640 columns, centred)")(
+      "depth-scale",
+      po::value(&settings.read.depth_scale)->default_value(1000.0, "1000"),
+      "stored depth per metre in a depth image")(
+      "rotated-depth",
+      po::bool_switch(&settings.read.rotated_depth_bits),
+      "depth bits are rotated by three, as in the SUN RGB-D data set")(
+      "bin-values",
+      po::value(&settings.read.bin_values_per_point)->default_value(4),
+      "floats per point of a .bin file: 4 (x y z reflectance) or 3")(
+      "projection",
+      po::value(&raw.projection)->default_value("auto"),
+      "raster for clouds that are not organized: auto, spherical, perspective, plane")(
+      "sensor",
+      po::value(&raw.sensor)->default_value("auto"),
+      "noise of the depth: auto (measured in the cloud), kinect, hdl64, or metres");
+}
+
+void
+addFitOptions(Settings& settings, RawOptions& raw, po::options_description& description)
+{
+  pcl::nurbs::ReconstructionOptions& fit = settings.reconstruction;
+  description.add_options()(
+      "tolerance",
+      po::value(&fit.tolerance)->default_value(0.0, "0"),
+      "a point belongs to a surface within this distance, metres; 0: three standard "
+      "deviations of its noise")(
+      "min-segment",
+      po::value(&settings.min_segment)->default_value(100),
+      "smaller connected groups are dropped, points")(
+      "min-patch",
+      po::value(&fit.min_patch_points)->default_value(fit.min_patch_points),
+      "smaller patches are dropped, points")(
+      "max-degree",
+      po::value(&fit.knots.max_degree)->default_value(3),
+      "highest degree, 1 to 9")(
+      "max-control-points",
+      po::value(&fit.knots.max_control_points)
+          ->default_value(fit.knots.max_control_points),
+      "largest net of a patch")(
+      "criterion",
+      po::value(&raw.criterion)->default_value("aicc"),
+      "what a knot must be worth: aic, aicc, bic, known-noise")(
+      "hold-out",
+      po::value(&fit.hold_out_every)->default_value(fit.hold_out_every),
+      "every so-manieth point is only measured, never fitted; 0 for none");
+}
+
+void
+addOutputOptions(Settings& settings, RawOptions& raw, po::options_description& description)
+{
+  description.add_options()(
+      "labels",
+      po::value(&settings.labels)->value_name("OUT.pcd"),
+      "write the organized cloud with the number of its patch per point, 0 for none")(
+      "lossless",
+      po::bool_switch(&settings.output.nurbs.lossless),
+      "keep every bit in .nurbs files")(
+      "mesh-tolerance",
+      po::value(&settings.output.mesh_tolerance)->default_value(1e-3, "0.001"),
+      "largest distance of mesh and surface, metres")(
+      "obj",
+      po::value(&raw.obj)->default_value("mesh"),
+      "content of .obj files: mesh or rational")(
+      "shade",
+      po::value(&settings.picture.shade)->default_value("patch"),
+      "colours of .png files: patch, normal, curvature, deviation")(
+      "view",
+      po::value(&settings.picture.view)->default_value("auto"),
+      "camera of .png files: auto, sensor, oblique, or eye and target as x,y,z,x,y,z")(
+      "points",
+      po::bool_switch(&settings.picture.points),
+      "draw the points over the surfaces in .png files")(
+      "size",
+      po::value(&raw.size)->default_value("1024x768"),
+      "of .png files, pixels");
+}
+
+template <typename Value>
+Value
+choose(const std::string& option,
+       const std::string& word,
+       const std::map<std::string, Value>& values)
+{
+  const auto found = values.find(word);
+  if (found != values.end())
+    return found->second;
+  std::string message = "--" + option + " must be one of";
+  for (const auto& value : values)
+    message += ' ' + value.first;
+  throw ToolError(kUsage, message);
+}
+
+pcl::PinholeIntrinsics
+parseIntrinsics(const std::string& text)
+{
+  pcl::PinholeIntrinsics camera;
+  char rest = 0;
+  const int read = std::sscanf(text.c_str(),
+                               "%lf,%lf,%lf,%lf%c",
+                               &camera.fx,
+                               &camera.fy,
+                               &camera.cx,
+                               &camera.cy,
+                               &rest);
+  if (read != 4 || !std::isfinite(camera.cx) || !std::isfinite(camera.cy) ||
+      !(camera.fx > 0.0) || !(camera.fy > 0.0) || !std::isfinite(camera.fx) ||
+      !std::isfinite(camera.fy))
+    throw ToolError(kUsage, "--intrinsics must be fx,fy,cx,cy in pixels");
+  return camera;
+}
+
+std::optional<pcl::SensorNoise>
+parseSensor(const std::string& word)
+{
+  if (word == "auto")
+    return std::nullopt;
+  if (word == "kinect")
+    return pcl::SensorNoise::kinect();
+  if (word == "hdl64")
+    return pcl::SensorNoise::hdl64();
+  pcl::SensorNoise noise;
+  char rest = 0;
+  if (std::sscanf(word.c_str(), "%lf%c", &noise.constant, &rest) != 1 ||
+      !(noise.constant > 0.0) || !std::isfinite(noise.constant))
+    throw ToolError(kUsage, "--sensor must be auto, kinect, hdl64, or metres above 0");
+  return noise;
+}
+
+void
+interpret(const RawOptions& raw, Settings& settings)
+{
+  using Organizer = pcl::CloudOrganizer<pcl::PointXYZ>;
+  using pcl::nurbs::ModelCriterion;
+  if (!raw.intrinsics.empty())
+    settings.read.intrinsics = parseIntrinsics(raw.intrinsics);
+  settings.noise = parseSensor(raw.sensor);
+  settings.projection = choose<Organizer::Projection>(
+      "projection",
+      raw.projection,
+      {{"auto", Organizer::AUTO},
+       {"spherical", Organizer::SPHERICAL},
+       {"perspective", Organizer::PERSPECTIVE},
+       {"plane", Organizer::PLANE}});
+  settings.reconstruction.knots.criterion =
+      choose<ModelCriterion>("criterion",
+                             raw.criterion,
+                             {{"aic", ModelCriterion::AIC},
+                              {"aicc", ModelCriterion::AICc},
+                              {"bic", ModelCriterion::BIC},
+                              {"known-noise", ModelCriterion::KnownNoise}});
+  settings.output.obj_rational =
+      choose<bool>("obj", raw.obj, {{"mesh", false}, {"rational", true}});
+  char rest = 0;
+  if (std::sscanf(raw.size.c_str(),
+                  "%dx%d%c",
+                  &settings.picture.width,
+                  &settings.picture.height,
+                  &rest) != 2)
+    throw ToolError(kUsage, "--size must be WIDTHxHEIGHT");
+}
+
+/** Ranges and combinations that no single option can check. */
+void
+validate(const Settings& settings)
+{
+  const pcl::nurbs::ReconstructionOptions& fit = settings.reconstruction;
+  settings.picture.validate();
+  if (!(settings.output.mesh_tolerance > 0.0) ||
+      !std::isfinite(settings.output.mesh_tolerance))
+    throw ToolError(kUsage, "--mesh-tolerance must be above 0");
+  if (!(fit.tolerance >= 0.0) || !std::isfinite(fit.tolerance))
+    throw ToolError(kUsage, "--tolerance must not be negative");
+  if (fit.knots.max_degree < 1 || fit.knots.max_degree > pcl::nurbs::kMaxDegree)
+    throw ToolError(kUsage, "--max-degree must be 1 to 9");
+  if (fit.knots.max_control_points < 4)
+    throw ToolError(kUsage, "--max-control-points must be at least 4");
+  if (settings.min_segment < 1 || fit.min_patch_points < 4)
+    throw ToolError(kUsage, "--min-segment must be at least 1, --min-patch at least 4");
+  if (fit.hold_out_every < 0 || fit.hold_out_every == 1)
+    throw ToolError(kUsage, "--hold-out must be 0 or at least 2");
+  std::set<std::string> names;
+  std::vector<std::string> all = settings.outputs;
+  for (const std::string* path : {&settings.labels, &settings.common.report})
+    if (!path->empty())
+      all.push_back(*path);
+  for (const std::string& path : all)
+    if (!names.insert(std::filesystem::weakly_canonical(path).string()).second)
+      throw ToolError(kUsage, path + " is named as output twice");
+  if (!settings.input.empty() &&
+      names.count(std::filesystem::weakly_canonical(settings.input).string()) != 0)
+    throw ToolError(kUsage, settings.input + " is both input and output");
+  const std::vector<std::string>& known = surfaceExtensions();
+  for (const std::string& path : settings.outputs)
+    if (extensionOf(path) != ".png" &&
+        std::find(known.begin(), known.end(), extensionOf(path)) == known.end())
+      throw ToolError(kUsage,
+                      path + ": unknown extension; .nurbs .json .obj .ply and .png are "
+                             "known");
+  if (!settings.labels.empty() && extensionOf(settings.labels) != ".pcd")
+    throw ToolError(kUsage, settings.labels + ": --labels writes .pcd files");
+}
+
+/** Without outputs the surfaces go to a .nurbs and a .png beside the caller. */
+void
+nameOutputs(std::vector<std::string> files, Settings& settings)
+{
+  if (!settings.demo) {
+    if (files.empty())
+      throw ToolError(kUsage, "no input file (see --help)");
+    settings.input = files.front();
+    files.erase(files.begin());
+  }
+  settings.outputs = std::move(files);
+  if (!settings.outputs.empty() || !settings.labels.empty())
+    return;
+  const std::string stem =
+      settings.demo ? "demo" : std::filesystem::path(settings.input).stem().string();
+  settings.outputs = {stem + ".nurbs", stem + ".png"};
+}
+
+} // namespace
+
+std::optional<Settings>
+parseSettings(int argc, char** argv)
+{
+  Settings settings;
+  RawOptions raw;
+  std::vector<std::string> files;
+  po::options_description common("Options");
+  po::options_description input("Input");
+  po::options_description fit("Surfaces");
+  po::options_description output("Output");
+  addCommonOptions(settings.common, common);
+  addInputOptions(settings, raw, input);
+  addFitOptions(settings, raw, fit);
+  addOutputOptions(settings, raw, output);
+  po::options_description shown;
+  shown.add(common).add(input).add(fit).add(output);
+  po::options_description all;
+  all.add(shown).add_options()("file", po::value(&files));
+  po::positional_options_description positional;
+  positional.add("file", -1);
+  po::variables_map values;
+  const int style = po::command_line_style::unix_style &
+                    ~po::command_line_style::allow_guessing;
+  po::store(
+      po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
+      values);
+  if (values.count("help") != 0) {
+    std::cout << "pcd_to_nurbs IN [OUT...]\n"
+                 "Turn a point cloud into trimmed NURBS surfaces.\n\n"
+                 "IN   .pcd, .ply, KITTI .bin, or a 16-bit depth .png\n"
+                 "OUT  .nurbs .json .obj .ply .png, as many as wanted; without any\n"
+                 "     NAME.nurbs and NAME.png in the current folder\n"
+              << shown
+              << "\nExit codes: 0 done, 1 wrong usage, 2 input unreadable or invalid,\n"
+                 "3 no surface found, 4 output could not be written.\n";
+    return std::nullopt;
+  }
+  if (values.count("version") != 0) {
+    std::cout << versionText("pcd_to_nurbs");
+    return std::nullopt;
+  }
+  po::notify(values);
+  interpret(raw, settings);
+  nameOutputs(std::move(files), settings);
+  validate(settings);
+  settings.common.threads = resolveThreads(settings.common.threads);
+  settings.reconstruction.threads = settings.common.threads;
+  return settings;
+}
+
+nlohmann::json
+optionsAsJson(const Settings& settings)
+{
+  const pcl::nurbs::ReconstructionOptions& fit = settings.reconstruction;
+  return {{"threads", settings.common.threads},
+          {"tolerance_sigmas", fit.tolerance_sigmas},
+          {"min_segment", settings.min_segment},
+          {"min_patch", fit.min_patch_points},
+          {"max_degree", fit.knots.max_degree},
+          {"max_control_points", fit.knots.max_control_points},
+          {"hold_out", fit.hold_out_every},
+          {"lossless", settings.output.nurbs.lossless}};
+}
+
+} // namespace pcl_nurbs_tools

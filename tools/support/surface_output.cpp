@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "surface_output.h"
+
+#include "run_tool.h"
+
+#include <pcl/surface/nurbs/json_io.h>
+#include <pcl/surface/nurbs/mesh_io.h>
+#include <pcl/surface/nurbs/obj_io.h>
+#include <pcl/surface/nurbs/tessellation.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <stdexcept>
+
+namespace pcl_nurbs_tools {
+namespace {
+
+pcl::nurbs::TriangleMesh
+mesh(const pcl::nurbs::SurfaceModel& model, const SurfaceOutputOptions& options)
+{
+  pcl::nurbs::TessellationOptions tessellation;
+  tessellation.chord_tolerance = options.mesh_tolerance;
+  return pcl::nurbs::tessellate(model, tessellation);
+}
+
+} // namespace
+
+const std::vector<std::string>&
+surfaceExtensions()
+{
+  static const std::vector<std::string> extensions{".nurbs", ".json", ".obj", ".ply"};
+  return extensions;
+}
+
+std::string
+extensionOf(const std::string& path)
+{
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  return extension;
+}
+
+void
+writeSurfaces(const std::string& path,
+              const pcl::nurbs::SurfaceModel& model,
+              const SurfaceOutputOptions& options)
+{
+  const std::string extension = extensionOf(path);
+  try {
+    if (extension == ".nurbs")
+      pcl::nurbs::writeNurbsFile(path, model, options.nurbs);
+    else if (extension == ".json")
+      pcl::nurbs::writeJsonFile(path, model);
+    else if (extension == ".ply")
+      pcl::nurbs::writePlyMesh(path, mesh(model, options));
+    else if (extension == ".obj" && options.obj_rational)
+      pcl::nurbs::writeObjFile(path, model);
+    else if (extension == ".obj")
+      pcl::nurbs::writeObjMesh(path, mesh(model, options));
+    else
+      throw std::logic_error("no writer for " + extension);
+  } catch (const std::runtime_error& error) {
+    throw ToolError(kCannotWrite, error.what());
+  }
+}
+
+} // namespace pcl_nurbs_tools
