@@ -53,6 +53,23 @@ judge(const ReconstructionInput& input, const FitPoints& all, FittedSurface& sur
   surface.noise = std::sqrt(all.sigma.squaredNorm() / static_cast<double>(all.sigma.size()));
 }
 
+/** Options of the knot search with the correlation of the sensor's noise filled in: a
+ * Kinect's disparities are matched over windows, so neighbouring pixels err alike. */
+KnotSearchOptions
+knotOptions(const ReconstructionInput& input)
+{
+  constexpr double kCameraCorrelation = 64.0; // pixels
+  constexpr double kLaserCorrelation = 4.0;   // samples on a ring
+  KnotSearchOptions options = input.options.knots;
+  if (options.points_per_sample > 0.0)
+    return options;
+  const GridProjection projection = input.points.geometry.projection;
+  options.points_per_sample = projection == GridProjection::perspective ? kCameraCorrelation
+                              : projection == GridProjection::spherical ? kLaserCorrelation
+                                                                        : 1.0;
+  return options;
+}
+
 /** Knot search and fit in one frame; false if the frame does not suit the points. */
 bool
 fitInFrame(const ReconstructionInput& input,
@@ -63,7 +80,7 @@ fitInFrame(const ReconstructionInput& input,
   try {
     FitReport search;
     const auto [knots_u, knots_v] = chooseHeightFieldKnots(
-        surface.frame.frame, fitted, input.options.knots, search);
+        surface.frame.frame, fitted, knotOptions(input), search);
     surface.fit = fitHeightField(
         surface.frame.frame, knots_u, knots_v, fitted, input.options.fit);
     surface.fit.report.criterion = search.criterion;
@@ -109,8 +126,9 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
     if (!found || attempt.num_inliers > surface.num_inliers)
       surface = std::move(attempt);
     found = true;
-    if (static_cast<double>(surface.num_inliers) >=
-        kGoodEnough * static_cast<double>(cells.size()))
+    if (surface.frame.grid_parameters ||
+        static_cast<double>(surface.num_inliers) >=
+            kGoodEnough * static_cast<double>(cells.size()))
       break;
   }
   return found;

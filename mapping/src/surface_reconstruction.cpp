@@ -212,6 +212,7 @@ append(SegmentPatches segment, std::uint32_t label, Reconstruction& result)
 ReconstructionOptions::ReconstructionOptions()
 {
   knots.max_control_points = 400;
+  knots.points_per_sample = 0.0;
   fit.distance = FitDistance::Parametric;
   fit.loss = RobustLoss::Huber;
 }

@@ -18,7 +18,9 @@ namespace nurbs {
 
 /** \brief Options of reconstructSurfaces(). */
 struct PCL_NURBS_MAPPING_EXPORT ReconstructionOptions {
-  /** Search for degrees and knots; its max_control_points limits each patch. */
+  /** Search for degrees and knots; its max_control_points limits each patch, and
+   * points_per_sample = 0 stands for what suits the sensor: neighbouring pixels of a depth
+   * camera err alike, so 64 of them count as one sample. */
   KnotSearchOptions knots;
   /** Fit of each patch. */
   SurfaceFitOptions fit;
@@ -37,8 +39,7 @@ struct PCL_NURBS_MAPPING_EXPORT ReconstructionOptions {
   /** Asked before each segment; the rest is left out when it says true. */
   std::function<bool()> stop;
 
-  /** \brief Independent errors for each point are asked for by 1; a Kinect's errors are
-   * alike over about 50 pixels. See KnotSearchOptions::points_per_sample. */
+  /** \brief Defaults that suit a depth camera's or laser's cloud. */
   ReconstructionOptions();
 };
 
