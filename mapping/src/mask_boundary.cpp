@@ -17,10 +17,11 @@ constexpr std::array<std::array<int, 2>, 4> kStep{{{1, 0}, {0, 1}, {-1, 0}, {0, 
 class BoundaryWalker {
 public:
   explicit BoundaryWalker(const CellMask& mask)
-  : mask_(mask)
-  , visited_(static_cast<std::size_t>(mask.width + 1) *
-             static_cast<std::size_t>(mask.height + 1) * 4)
-  {}
+      : mask_(mask),
+        visited_(static_cast<std::size_t>(mask.width + 1) *
+                 static_cast<std::size_t>(mask.height + 1) * 4)
+  {
+  }
 
   std::vector<LatticeLoop>
   walk()

@@ -10,8 +10,8 @@
 namespace pcl {
 namespace nurbs {
 
-/** \brief Closed chain of lattice corners; corner (c, r) is where the cells (c - 1, r - 1)
- * and (c, r) touch. First corner not repeated; straight runs are one edge. */
+/** \brief Closed chain of lattice corners; corner (c, r) is where the cells (c - 1, r -
+ * 1) and (c, r) touch. First corner not repeated; straight runs are one edge. */
 using LatticeLoop = std::vector<Eigen::Vector2i>;
 
 /** \brief Set of cells of a grid. */
@@ -29,9 +29,9 @@ struct CellMask {
   }
 };
 
-/** \brief Border of a mask: around cells counter-clockwise in (column, row), around holes
- * clockwise, so that the mask is on the left. Cells that touch in a corner only are apart.
- * O(cells). */
+/** \brief Border of a mask: around cells counter-clockwise in (column, row), around
+ * holes clockwise, so that the mask is on the left. Cells that touch in a corner only
+ * are apart. O(cells). */
 std::vector<LatticeLoop>
 traceBoundary(const CellMask& mask);
 

@@ -13,8 +13,8 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
-/** Pose whose axes are the principal ones: x along the largest extent, z along the smallest
- * and towards the sensor at the origin. */
+/** Pose whose axes are the principal ones: x along the largest extent, z along the
+ * smallest and towards the sensor at the origin. */
 Eigen::Isometry3d
 basePlane(const Eigen::Matrix3Xd& positions)
 {
@@ -79,9 +79,10 @@ candidateFrames(const GridGeometry& geometry, const Eigen::Matrix3Xd& positions)
   std::vector<FrameCandidate> result;
   if (geometry.projection == GridProjection::perspective) {
     const PinholeIntrinsics camera = geometry.intrinsics();
-    result.push_back({HeightFieldFrame::perspective(
-                          camera.fx, camera.fy, camera.cx, camera.cy, sensorPose(geometry)),
-                      true});
+    result.push_back(
+        {HeightFieldFrame::perspective(
+             camera.fx, camera.fy, camera.cx, camera.cy, sensorPose(geometry)),
+         true});
   }
   if (geometry.projection == GridProjection::plane)
     result.push_back({mapPlane(geometry), false});
@@ -90,7 +91,8 @@ candidateFrames(const GridGeometry& geometry, const Eigen::Matrix3Xd& positions)
   if (geometry.projection == GridProjection::spherical) {
     const Eigen::Isometry3d view = viewOf(positions);
     if (fitsView(view, positions))
-      result.push_back({HeightFieldFrame::perspective(1.0, 1.0, 0.0, 0.0, view), false});
+      result.push_back(
+          {HeightFieldFrame::perspective(1.0, 1.0, 0.0, 0.0, view), false});
   }
   return result;
 }

@@ -112,27 +112,29 @@ closed(const CellMask& mask)
   return result;
 }
 
-/** Finds the (u, v) of lattice corners from the parameters of the cells around them. */
+/** Finds the (u, v) of lattice corners. */
 class CornerParameters {
 public:
-  CornerParameters(const FittedSurface& surface, const GridWindow& window)
-  : surface_(surface), window_(window), position_(window.mask.cells.size(), -1)
+  CornerParameters(const GridGeometry& geometry,
+                   const FittedSurface& surface,
+                   const GridWindow& window)
+      : geometry_(geometry),
+        surface_(surface),
+        window_(window),
+        position_(window.mask.cells.size(), -1)
   {
     for (std::size_t k = 0; k < surface.cells.size(); ++k)
       if (surface.inlier[k])
         position_[window.index(window.place(surface.cells[k]))] = static_cast<int>(k);
-    typical_column_ = typicalStep({1, 0});
-    typical_row_ = typicalStep({0, 1});
   }
 
   Eigen::Vector2d
   at(const Eigen::Vector2i& corner) const
   {
-    Eigen::Vector2d uv = Eigen::Vector2d::Zero();
-    if (surface_.frame.grid_parameters)
-      uv = corner.cast<double>() + window_.origin() - Eigen::Vector2d(0.5, 0.5);
-    else
-      uv = fromCells(corner);
+    const Eigen::Vector2d lattice =
+        corner.cast<double>() + window_.origin() - Eigen::Vector2d(0.5, 0.5);
+    const Eigen::Vector2d uv =
+        surface_.frame.grid_parameters ? lattice : fromCells(corner, lattice);
     const NurbsSurface& surface = surface_.fit.surface;
     return {surface.knotsU().clampToDomain(uv.x()),
             surface.knotsV().clampToDomain(uv.y())};
@@ -145,78 +147,54 @@ private:
     return window_.mask.at(place.x(), place.y()) ? position_[window_.index(place)] : -1;
   }
 
-  /** Step of (u, v) to the next cell, from a neighbour on either side; false if there is
-   * none. */
-  bool
-  localStep(const Eigen::Vector2i& place,
-            const Eigen::Vector2i& along,
-            Eigen::Vector2d& step) const
-  {
-    const int here = cellAt(place);
-    const int after = cellAt(place + along);
-    const int before = cellAt(place - along);
-    if (here < 0 || (after < 0 && before < 0))
-      return false;
-    const int high = after >= 0 ? after : here;
-    const int low = before >= 0 ? before : here;
-    step = (surface_.parameters.col(high) - surface_.parameters.col(low)) /
-           (after >= 0 && before >= 0 ? 2.0 : 1.0);
-    return true;
-  }
-
+  /** Mean over the member cells around a corner of where the ray through the corner
+   * meets the tangent plane of the surface at each of them. */
   Eigen::Vector2d
-  typicalStep(const Eigen::Vector2i& along) const
-  {
-    std::vector<double> u;
-    std::vector<double> v;
-    Eigen::Vector2d step;
-    for (int row = 0; row < window_.mask.height; ++row)
-      for (int column = 0; column < window_.mask.width; ++column)
-        if (localStep({column, row}, along, step)) {
-          u.push_back(step.x());
-          v.push_back(step.y());
-        }
-    if (u.empty())
-      return Eigen::Vector2d::Zero();
-    const auto middle = [](std::vector<double>& values) {
-      const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::nth_element(values.begin(), at, values.end());
-      return *at;
-    };
-    return {middle(u), middle(v)};
-  }
-
-  /** Mean over the member cells around a corner of where each expects it. */
-  Eigen::Vector2d
-  fromCells(const Eigen::Vector2i& corner) const
+  fromCells(const Eigen::Vector2i& corner, const Eigen::Vector2d& lattice) const
   {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     int count = 0;
     for (int dr : {-1, 0})
       for (int dc : {-1, 0}) {
-        const Eigen::Vector2i place = corner + Eigen::Vector2i(dc, dr);
-        const int cell = cellAt(place);
+        const int cell = cellAt(corner + Eigen::Vector2i(dc, dr));
         if (cell < 0)
           continue;
-        Eigen::Vector2d column = typical_column_;
-        Eigen::Vector2d row = typical_row_;
-        localStep(place, {1, 0}, column);
-        localStep(place, {0, 1}, row);
-        sum += surface_.parameters.col(cell) - (dc + 0.5) * column - (dr + 0.5) * row;
+        sum += onRay(surface_.parameters.col(cell), lattice);
         ++count;
       }
     return count > 0 ? Eigen::Vector2d(sum / count) : sum;
   }
 
+  /** (u, v) where the ray through a lattice position meets the tangent plane at a foot
+   * point; the foot point itself where there are no rays, or they graze the surface. */
+  Eigen::Vector2d
+  onRay(const Eigen::Vector2d& foot, const Eigen::Vector2d& lattice) const
+  {
+    constexpr double kGrazing = 0.02;
+    constexpr double kMostChange = 0.2; // of the range
+    if (geometry_.projection != GridProjection::perspective &&
+        geometry_.projection != GridProjection::spherical)
+      return foot;
+    const SurfaceJet1 jet = surface_.fit.surface.evaluateJet1(foot.x(), foot.y());
+    const Eigen::Vector3d normal = jet.du.cross(jet.dv).normalized();
+    const Eigen::Vector3d ray = geometry_.direction(lattice.x(), lattice.y());
+    const double along = normal.dot(ray);
+    if (std::abs(along) < kGrazing)
+      return foot;
+    const double range = normal.dot(jet.position) / along;
+    if (std::abs(range - jet.position.norm()) > kMostChange * jet.position.norm())
+      return foot;
+    return surface_.frame.frame.toLocal(range * ray).head<2>();
+  }
+
+  const GridGeometry& geometry_;
   const FittedSurface& surface_;
   const GridWindow& window_;
   std::vector<int> position_; // in FittedSurface::cells, -1 for none
-  Eigen::Vector2d typical_column_;
-  Eigen::Vector2d typical_row_;
 };
 
-/** Number of cells inside of each connected part of a mask must reach a minimum; smaller
- * parts are cleared (4-neighbours). */
+/** Number of cells inside of each connected part of a mask must reach a minimum;
+ * smaller parts are cleared (4-neighbours). */
 void
 clearSmallParts(CellMask& mask, int fewest)
 {
@@ -248,9 +226,11 @@ clearSmallParts(CellMask& mask, int fewest)
 }
 
 std::vector<TrimLoop>
-trimLoops(const FittedSurface& surface, const GridWindow& window)
+trimLoops(const GridGeometry& geometry,
+          const FittedSurface& surface,
+          const GridWindow& window)
 {
-  const CornerParameters parameters(surface, window);
+  const CornerParameters parameters(geometry, surface, window);
   // Rows count downwards: seen in (u, v) the sense of a loop may be the other one.
   std::vector<TrimLoop> loops;
   double total = 0.0;
@@ -304,7 +284,7 @@ trimToInliers(const ReconstructionInput& input,
   quality.points = part.members.size();
   quality.noise = surface.noise;
   quality.rmse = std::sqrt(sum / static_cast<double>(part.members.size()));
-  std::vector<TrimLoop> loops = trimLoops(surface, window);
+  std::vector<TrimLoop> loops = trimLoops(input.points.geometry, surface, window);
   if (loops.empty())
     return false;
   part.patch.geometry = TrimmedSurface(surface.fit.surface, std::move(loops));

@@ -20,8 +20,8 @@ struct TrimmedPart {
 
 /** \brief Cut a fitted surface along the border of its inliers in the grid.
  *
- * Single cells that are missing or out of tolerance among inliers stay inside; larger gaps
- * become holes. Inliers of one segment make one patch, even if they are apart.
+ * Single cells that are missing or out of tolerance among inliers stay inside; larger
+ * gaps become holes. Inliers of one segment make one patch, even if they are apart.
  * \param[in] input the cloud
  * \param[in] surface a fit
  * \param[out] part patch and members

@@ -40,8 +40,8 @@ summarize(const Reconstruction& reconstruction)
   const double count = static_cast<double>(distances.size());
   result.rmse = std::sqrt(squares / count);
   result.mean = sum / count;
-  const auto p95 = distances.begin() +
-                   static_cast<std::ptrdiff_t>(0.95 * (distances.size() - 1));
+  const auto p95 =
+      distances.begin() + static_cast<std::ptrdiff_t>(0.95 * (distances.size() - 1));
   std::nth_element(distances.begin(), p95, distances.end());
   result.p95 = *p95;
   result.max = *std::max_element(p95, distances.end());

@@ -50,45 +50,102 @@ judge(const ReconstructionInput& input, const FitPoints& all, FittedSurface& sur
                         input.tolerance(surface.cells[k]);
     surface.num_inliers += surface.inlier[k] ? 1 : 0;
   }
-  surface.noise = std::sqrt(all.sigma.squaredNorm() / static_cast<double>(all.sigma.size()));
+  surface.noise =
+      std::sqrt(all.sigma.squaredNorm() / static_cast<double>(all.sigma.size()));
 }
 
-/** Options of the knot search with the correlation of the sensor's noise filled in: a
- * Kinect's disparities are matched over windows, so neighbouring pixels err alike. */
-KnotSearchOptions
-knotOptions(const ReconstructionInput& input)
+/** How many neighbouring points err alike, at first: a Kinect's disparities are matched
+ * over windows, so its pixels do. */
+double
+typicalCorrelation(GridProjection projection)
 {
-  constexpr double kCameraCorrelation = 64.0; // pixels
-  constexpr double kLaserCorrelation = 4.0;   // samples on a ring
-  KnotSearchOptions options = input.options.knots;
-  if (options.points_per_sample > 0.0)
-    return options;
-  const GridProjection projection = input.points.geometry.projection;
-  options.points_per_sample = projection == GridProjection::perspective ? kCameraCorrelation
-                              : projection == GridProjection::spherical ? kLaserCorrelation
-                                                                        : 1.0;
-  return options;
+  constexpr double kCamera = 64.0; // pixels
+  constexpr double kLaser = 4.0;   // samples on a ring
+  switch (projection) {
+  case GridProjection::perspective:
+    return kCamera;
+  case GridProjection::spherical:
+    return kLaser;
+  default:
+    return 1.0;
+  }
 }
 
-/** Knot search and fit in one frame; false if the frame does not suit the points. */
+/** Fit with given knots. Control points beyond the points' border may be pulled behind
+ * the camera by noise; the gentlest stiffness that keeps them in front is used. \throws
+ * std::domain_error if none does */
+SurfaceFit
+fitInFront(const HeightFieldFrame& frame,
+           const std::pair<KnotVector, KnotVector>& knots,
+           const FitPoints& points,
+           SurfaceFitOptions options)
+{
+  constexpr double kStiffest = 1e-4;
+  options.measure = false; // judge() measures, and the held-out points as well
+  while (true) {
+    try {
+      return fitHeightField(frame, knots.first, knots.second, points, options);
+    } catch (const std::domain_error&) {
+      if (options.fairness >= kStiffest)
+        throw;
+      options.fairness = std::max(1e-9, 100.0 * options.fairness);
+    }
+  }
+}
+
+/** Knot search and fit in one frame with an assumed correlation; false if the frame
+ * does not suit the points. */
 bool
-fitInFrame(const ReconstructionInput& input,
-           const FitPoints& fitted,
-           const FitPoints& all,
-           FittedSurface& surface)
+fitOnce(const ReconstructionInput& input,
+        const FitPoints& fitted,
+        const FitPoints& all,
+        const KnotSearchOptions& options,
+        FittedSurface& surface)
 {
   try {
     FitReport search;
-    const auto [knots_u, knots_v] = chooseHeightFieldKnots(
-        surface.frame.frame, fitted, knotOptions(input), search);
-    surface.fit = fitHeightField(
-        surface.frame.frame, knots_u, knots_v, fitted, input.options.fit);
+    const auto knots =
+        chooseHeightFieldKnots(surface.frame.frame, fitted, options, search);
+    surface.fit = fitInFront(surface.frame.frame, knots, fitted, input.options.fit);
     surface.fit.report.criterion = search.criterion;
     surface.fit.report.salient = std::move(search.salient);
   } catch (const std::domain_error&) {
     return false; // behind the camera, or not determined: another frame may do
   }
   judge(input, all, surface);
+  return true;
+}
+
+/** Fit in one frame. Residuals may be correlated noise, but not beyond what the
+ * sensor's noise allows: where they are, less correlation is assumed, which admits
+ * finer knots. */
+bool
+fitInFrame(const ReconstructionInput& input,
+           const FitPoints& fitted,
+           const FitPoints& all,
+           FittedSurface& surface)
+{
+  constexpr double kExplained = 0.97;
+  constexpr double kWorthwhile = 0.01;
+  KnotSearchOptions options = input.options.knots;
+  const bool automatic = options.points_per_sample == 0.0;
+  if (automatic)
+    options.points_per_sample = typicalCorrelation(input.points.geometry.projection);
+  if (!fitOnce(input, fitted, all, options, surface))
+    return false;
+  const double count = static_cast<double>(surface.cells.size());
+  while (automatic && options.points_per_sample > 1.0 &&
+         static_cast<double>(surface.num_inliers) < kExplained * count) {
+    options.points_per_sample = std::max(1.0, 0.25 * options.points_per_sample);
+    FittedSurface finer;
+    finer.frame = surface.frame;
+    finer.cells = surface.cells;
+    if (!fitOnce(input, fitted, all, options, finer) ||
+        static_cast<double>(finer.num_inliers) <
+            static_cast<double>(surface.num_inliers) + kWorthwhile * count)
+      break;
+    surface = std::move(finer);
+  }
   return true;
 }
 

@@ -21,11 +21,11 @@ using CellSet = std::vector<std::int32_t>;
 struct FittedSurface {
   SurfaceFit fit;
   FrameCandidate frame;
-  CellSet cells;                 /**< all cells that were looked at */
-  Eigen::Matrix2Xd parameters;   /**< foot point of each of them */
-  Eigen::VectorXd distances;     /**< signed orthogonal distance of each, metres */
-  std::vector<bool> inlier;      /**< whether each is within tolerance */
-  double noise = 0.0;            /**< root mean square of the sensor's noise, metres */
+  CellSet cells;               /**< all cells that were looked at */
+  Eigen::Matrix2Xd parameters; /**< foot point of each of them */
+  Eigen::VectorXd distances;   /**< signed orthogonal distance of each, metres */
+  std::vector<bool> inlier;    /**< whether each is within tolerance */
+  double noise = 0.0;          /**< root mean square of the sensor's noise, metres */
   std::size_t num_inliers = 0;
 };
 
@@ -57,7 +57,9 @@ struct ReconstructionInput {
  * \param[out] surface the fit
  * \return false if no frame gave a surface */
 bool
-fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& surface);
+fitCells(const ReconstructionInput& input,
+         const CellSet& cells,
+         FittedSurface& surface);
 
 } // namespace nurbs
 } // namespace pcl

@@ -159,8 +159,8 @@ requireValid(const GridPoints& points,
   if (labels.size() != points.size())
     throw std::invalid_argument("reconstruction: one label per cell is needed");
   if (!(options.tolerance_sigmas > 0.0) || !(options.tolerance >= 0.0) ||
-      options.min_patch_points < 4 || options.threads < 1 || options.hold_out_every < 0 ||
-      options.hold_out_every == 1)
+      options.min_patch_points < 4 || options.threads < 1 ||
+      options.hold_out_every < 0 || options.hold_out_every == 1)
     throw std::invalid_argument("reconstruction: an option is out of range");
 }
 

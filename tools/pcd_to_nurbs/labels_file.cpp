@@ -23,8 +23,8 @@ writeLabels(const std::string& path,
                      "VERSION 0.7\nFIELDS x y z label\nSIZE 4 4 4 4\nTYPE F F F U\n"
                      "COUNT 1 1 1 1\nWIDTH " +
                      std::to_string(cloud.width) + "\nHEIGHT " +
-                     std::to_string(cloud.height) + "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
-                     count + "\nDATA binary\n";
+                     std::to_string(cloud.height) +
+                     "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
   const std::size_t header = text.size();
   text.resize(header + cloud.size() * sizeof(Record));
   for (std::size_t k = 0; k < cloud.size(); ++k) {

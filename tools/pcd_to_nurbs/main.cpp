@@ -70,8 +70,10 @@ private:
     if (settings_.demo) {
       const pcl::nurbs::DemoScene scene;
       cloud_ = scene.cloud();
-      reconstructor_.setGeometry(pcl::GridGeometry::pinhole(
-          static_cast<int>(cloud_->width), static_cast<int>(cloud_->height), scene.intrinsics()));
+      reconstructor_.setGeometry(
+          pcl::GridGeometry::pinhole(static_cast<int>(cloud_->width),
+                                     static_cast<int>(cloud_->height),
+                                     scene.intrinsics()));
       reconstructor_.setSensorNoise(scene.noise());
     }
     else {
@@ -125,7 +127,8 @@ private:
     for (const std::string& path : settings_.outputs) {
       throwIfInterrupted();
       if (extensionOf(path) == ".png")
-        writePicture(path, gridPoints(), reconstructor_.getReconstruction(), settings_.picture);
+        writePicture(
+            path, gridPoints(), reconstructor_.getReconstruction(), settings_.picture);
       else
         writeSurfaces(path, model_, settings_.output);
       if (extensionOf(path) == ".nurbs")
@@ -185,29 +188,30 @@ private:
         pcl::nurbs::summarize(reconstructor_.getReconstruction());
     const Reconstructor::Seconds& seconds = reconstructor_.getSeconds();
     const std::size_t valid = countValid();
-    return {{"points", cloud_->size()},
-            {"valid_points", valid},
-            {"segments", reconstructor_.getNumSegments()},
-            {"patches", model_.patches.size()},
-            {"control_points", model_.numControlPoints()},
-            {"bytes", bytes_},
-            {"rmse_m", statistics.rmse},
-            {"mean_m", statistics.mean},
-            {"p95_m", statistics.p95},
-            {"max_m", statistics.max},
-            {"coverage",
-             static_cast<double>(statistics.covered_points) / static_cast<double>(valid)},
-            {"tolerance_m", toleranceMetres()},
-            {"seconds",
-             {{"load", load_seconds_},
-              {"organize", seconds.organize},
-              {"segment", seconds.segment},
-              {"fit", seconds.fit},
-              {"trim", seconds.trim},
-              {"write", write_seconds_},
-              {"total", total_seconds_}}},
-            {"peak_rss_mb", peakMemoryMegabytes()},
-            {"options", optionsAsJson(settings_)}};
+    return {
+        {"points", cloud_->size()},
+        {"valid_points", valid},
+        {"segments", reconstructor_.getNumSegments()},
+        {"patches", model_.patches.size()},
+        {"control_points", model_.numControlPoints()},
+        {"bytes", bytes_},
+        {"rmse_m", statistics.rmse},
+        {"mean_m", statistics.mean},
+        {"p95_m", statistics.p95},
+        {"max_m", statistics.max},
+        {"coverage",
+         static_cast<double>(statistics.covered_points) / static_cast<double>(valid)},
+        {"tolerance_m", toleranceMetres()},
+        {"seconds",
+         {{"load", load_seconds_},
+          {"organize", seconds.organize},
+          {"segment", seconds.segment},
+          {"fit", seconds.fit},
+          {"trim", seconds.trim},
+          {"write", write_seconds_},
+          {"total", total_seconds_}}},
+        {"peak_rss_mb", peakMemoryMegabytes()},
+        {"options", optionsAsJson(settings_)}};
   }
 
   void

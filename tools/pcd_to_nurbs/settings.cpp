@@ -32,7 +32,9 @@ struct RawOptions {
 };
 
 void
-addInputOptions(Settings& settings, RawOptions& raw, po::options_description& description)
+addInputOptions(Settings& settings,
+                RawOptions& raw,
+                po::options_description& description)
 {
   description.add_options()(
       "demo", po::bool_switch(&settings.demo), "use a generated room instead of IN")(
@@ -64,30 +66,33 @@ addFitOptions(Settings& settings, RawOptions& raw, po::options_description& desc
       "tolerance",
       po::value(&fit.tolerance)->default_value(0.0, "0"),
       "a point belongs to a surface within this distance, metres; 0: three standard "
-      "deviations of its noise")(
-      "min-segment",
-      po::value(&settings.min_segment)->default_value(100),
-      "smaller connected groups are dropped, points")(
+      "deviations of its noise")("min-segment",
+                                 po::value(&settings.min_segment)->default_value(100),
+                                 "smaller connected groups are dropped, points")(
       "min-patch",
       po::value(&fit.min_patch_points)->default_value(fit.min_patch_points),
       "smaller patches are dropped, points")(
       "max-degree",
       po::value(&fit.knots.max_degree)->default_value(3),
-      "highest degree, 1 to 9")(
-      "max-control-points",
-      po::value(&fit.knots.max_control_points)
-          ->default_value(fit.knots.max_control_points),
-      "largest net of a patch")(
+      "highest degree, 1 to 9")("max-control-points",
+                                po::value(&fit.knots.max_control_points)
+                                    ->default_value(fit.knots.max_control_points),
+                                "largest net of a patch")(
       "criterion",
       po::value(&raw.criterion)->default_value("aicc"),
       "what a knot must be worth: aic, aicc, bic, known-noise")(
-      "hold-out",
-      po::value(&fit.hold_out_every)->default_value(fit.hold_out_every),
-      "every so-manieth point is only measured, never fitted; 0 for none");
+      "correlation",
+      po::value(&fit.knots.points_per_sample)->default_value(0.0, "0"),
+      "so many neighbouring points err alike and count as one; 0: what suits the "
+      "sensor")("hold-out",
+                po::value(&fit.hold_out_every)->default_value(fit.hold_out_every),
+                "every so-manieth point is only measured, never fitted; 0 for none");
 }
 
 void
-addOutputOptions(Settings& settings, RawOptions& raw, po::options_description& description)
+addOutputOptions(Settings& settings,
+                 RawOptions& raw,
+                 po::options_description& description)
 {
   description.add_options()(
       "labels",
@@ -111,9 +116,7 @@ addOutputOptions(Settings& settings, RawOptions& raw, po::options_description& d
       "points",
       po::bool_switch(&settings.picture.points),
       "draw the points over the surfaces in .png files")(
-      "size",
-      po::value(&raw.size)->default_value("1024x768"),
-      "of .png files, pixels");
+      "size", po::value(&raw.size)->default_value("1024x768"), "of .png files, pixels");
 }
 
 template <typename Value>
@@ -175,13 +178,13 @@ interpret(const RawOptions& raw, Settings& settings)
   if (!raw.intrinsics.empty())
     settings.read.intrinsics = parseIntrinsics(raw.intrinsics);
   settings.noise = parseSensor(raw.sensor);
-  settings.projection = choose<Organizer::Projection>(
-      "projection",
-      raw.projection,
-      {{"auto", Organizer::AUTO},
-       {"spherical", Organizer::SPHERICAL},
-       {"perspective", Organizer::PERSPECTIVE},
-       {"plane", Organizer::PLANE}});
+  settings.projection =
+      choose<Organizer::Projection>("projection",
+                                    raw.projection,
+                                    {{"auto", Organizer::AUTO},
+                                     {"spherical", Organizer::SPHERICAL},
+                                     {"perspective", Organizer::PERSPECTIVE},
+                                     {"plane", Organizer::PLANE}});
   settings.reconstruction.knots.criterion =
       choose<ModelCriterion>("criterion",
                              raw.criterion,
@@ -215,6 +218,9 @@ validate(const Settings& settings)
     throw ToolError(kUsage, "--max-degree must be 1 to 9");
   if (fit.knots.max_control_points < 4)
     throw ToolError(kUsage, "--max-control-points must be at least 4");
+  if (!(fit.knots.points_per_sample >= 0.0) ||
+      !std::isfinite(fit.knots.points_per_sample))
+    throw ToolError(kUsage, "--correlation must not be negative");
   if (settings.min_segment < 1 || fit.min_patch_points < 4)
     throw ToolError(kUsage, "--min-segment must be at least 1, --min-patch at least 4");
   if (fit.hold_out_every < 0 || fit.hold_out_every == 1)
@@ -282,11 +288,14 @@ parseSettings(int argc, char** argv)
   po::positional_options_description positional;
   positional.add("file", -1);
   po::variables_map values;
-  const int style = po::command_line_style::unix_style &
-                    ~po::command_line_style::allow_guessing;
-  po::store(
-      po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
-      values);
+  const int style =
+      po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+  po::store(po::command_line_parser(argc, argv)
+                .options(all)
+                .positional(positional)
+                .style(style)
+                .run(),
+            values);
   if (values.count("help") != 0) {
     std::cout << "pcd_to_nurbs IN [OUT...]\n"
                  "Turn a point cloud into trimmed NURBS surfaces.\n\n"

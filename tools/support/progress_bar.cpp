@@ -12,8 +12,9 @@
 namespace pcl_nurbs_tools {
 
 ProgressBar::ProgressBar(std::string label, bool quiet)
-: label_(std::move(label)), enabled_(!quiet && isatty(STDERR_FILENO) != 0)
-{}
+    : label_(std::move(label)), enabled_(!quiet && isatty(STDERR_FILENO) != 0)
+{
+}
 
 ProgressBar::~ProgressBar()
 {

@@ -23,8 +23,9 @@ enum ExitCode {
 class ToolError : public std::runtime_error {
 public:
   ToolError(ExitCode code, const std::string& message)
-  : std::runtime_error(message), code_(code)
-  {}
+      : std::runtime_error(message), code_(code)
+  {
+  }
 
   ExitCode
   code() const

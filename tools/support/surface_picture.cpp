@@ -132,9 +132,11 @@ PictureOptions::validate() const
   constexpr int kLargest = 16384;
   if (shades().count(shade) == 0)
     throw ToolError(kUsage, "--shade must be patch, normal, curvature or deviation");
-  if (view != "auto" && view != "sensor" && view != "oblique" && parseView(view).empty())
-    throw ToolError(kUsage,
-                    "--view must be auto, sensor, oblique or eye and target as x,y,z,x,y,z");
+  if (view != "auto" && view != "sensor" && view != "oblique" &&
+      parseView(view).empty())
+    throw ToolError(
+        kUsage,
+        "--view must be auto, sensor, oblique or eye and target as x,y,z,x,y,z");
   if (width < 16 || height < 16 || width > kLargest || height > kLargest)
     throw ToolError(kUsage, "--size must be 16x16 to 16384x16384");
 }

@@ -12,8 +12,8 @@ namespace pcl_nurbs_tools {
 /** What a picture of a reconstruction shows. */
 struct PictureOptions {
   std::string shade = "patch"; /**< patch, normal, curvature or deviation */
-  std::string view = "auto";   /**< auto, sensor, oblique, or six numbers: eye, target */
-  bool points = false;         /**< draw the input points over it */
+  std::string view = "auto"; /**< auto, sensor, oblique, or six numbers: eye, target */
+  bool points = false;       /**< draw the input points over it */
   int width = 1024;
   int height = 768;
 

@@ -83,28 +83,53 @@ robustWeights(const Eigen::VectorXd& residual, const SurfaceFitOptions& options)
       [&](double r) { return evaluateLoss(options.loss, scale, r * r).slope; });
 }
 
-Eigen::VectorXd
-evaluateHeights(const KnotVector& u,
-                const KnotVector& v,
-                const Eigen::VectorXd& coefficients,
-                const Eigen::Matrix2Xd& parameters)
+/** Sum of polynomial(i, j) T_i(s) T_j(t), by Clenshaw's recurrence in both directions.
+ */
+double
+evaluateChebyshevProduct(const Eigen::MatrixXd& polynomial, double s, double t)
 {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(parameters.cols());
-  BasisValues basis_u;
-  BasisValues basis_v;
-  for (Eigen::Index k = 0; k < parameters.cols(); ++k) {
-    const int span_u = u.findSpan(parameters(0, k));
-    const int span_v = v.findSpan(parameters(1, k));
-    u.evaluateBasis(span_u, parameters(0, k), basis_u);
-    v.evaluateBasis(span_v, parameters(1, k), basis_v);
-    for (int i = 0; i <= u.degree(); ++i) {
-      const Eigen::Index first =
-          static_cast<Eigen::Index>(span_u - u.degree() + i) * v.numControlPoints() +
-          span_v - v.degree();
-      double row = 0.0;
-      for (int j = 0; j <= v.degree(); ++j)
-        row += basis_v[static_cast<std::size_t>(j)] * coefficients(first + j);
-      result(k) += basis_u[static_cast<std::size_t>(i)] * row;
+  double u_next = 0.0;
+  double u_after = 0.0;
+  for (Eigen::Index i = polynomial.rows() - 1; i >= 0; --i) {
+    double v_next = 0.0;
+    double v_after = 0.0;
+    for (Eigen::Index j = polynomial.cols() - 1; j > 0; --j) {
+      const double v = polynomial(i, j) + 2.0 * t * v_next - v_after;
+      v_after = v_next;
+      v_next = v;
+    }
+    const double row = polynomial(i, 0) + t * v_next - v_after;
+    const double u = row + (i > 0 ? 2.0 : 1.0) * s * u_next - u_after;
+    u_after = u_next;
+    u_next = u;
+  }
+  return u_next;
+}
+
+/** Heights at all points, from the Chebyshev form of each cell's polynomial. */
+Eigen::VectorXd
+evaluateHeights(const CellPoints& points, const Eigen::VectorXd& coefficients)
+{
+  const int p = points.cells_u.degree();
+  const int q = points.cells_v.degree();
+  Eigen::VectorXd result(static_cast<Eigen::Index>(points.order.size()));
+  for (int cell = 0; cell < points.numCells(); ++cell) {
+    const int begin = points.begin[static_cast<std::size_t>(cell)];
+    const int end = points.begin[static_cast<std::size_t>(cell) + 1];
+    if (begin == end)
+      continue;
+    const std::vector<int> controls = points.controls(cell);
+    Eigen::MatrixXd net(p + 1, q + 1);
+    for (int i = 0; i <= p; ++i)
+      for (int j = 0; j <= q; ++j)
+        net(i, j) = coefficients(controls[static_cast<std::size_t>(i * (q + 1) + j)]);
+    const int b = points.cells_v.count();
+    const Eigen::MatrixXd polynomial = points.cells_u.chebyshev(cell / b).transpose() *
+                                       net * points.cells_v.chebyshev(cell % b);
+    for (int k = begin; k < end; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      result(points.order[at]) =
+          evaluateChebyshevProduct(polynomial, points.s[at], points.t[at]);
     }
   }
   return result;
@@ -120,6 +145,7 @@ solveHeights(const KnotVector& knots_u,
              FitReport& report)
 {
   constexpr int kMostRounds = 10;
+  constexpr double kSteadyWeights = 2e-3;
   const int rounds = options.loss == RobustLoss::Squared
                          ? 1
                          : std::min(options.max_iterations, kMostRounds);
@@ -138,8 +164,7 @@ solveHeights(const KnotVector& knots_u,
     ++report.iterations;
     if (round + 1 == rounds)
       break;
-    const Eigen::VectorXd present =
-        evaluateHeights(knots_u, knots_v, unknowns.col(0), local.parameters);
+    const Eigen::VectorXd present = evaluateHeights(cells, unknowns.col(0));
     robust =
         robustWeights((local.heights - present).cwiseQuotient(local.sigma), options);
   }
@@ -196,7 +221,8 @@ fitHeightField(const HeightFieldFrame& frame,
     fit.surface = unknowns.surface(heights);
     fit.parameters = problem.parameters();
   }
-  measureFit(split, options, fit);
+  if (options.measure)
+    measureFit(split, options, fit);
   return fit;
 }
 

@@ -15,7 +15,8 @@
 
 namespace pcl {
 
-/** \brief Turns a point cloud into trimmed NURBS surfaces: organize, segment, fit, trim.
+/** \brief Turns a point cloud into trimmed NURBS surfaces: organize, segment, fit,
+ * trim.
  *
  * \code
  * pcl::NurbsReconstruction<pcl::PointXYZ> reconstruction;
@@ -24,9 +25,8 @@ namespace pcl {
  * if (reconstruction.reconstruct(model))
  *   pcl::nurbs::writeNurbsFile("cloud.nurbs", model);
  * \endcode
- * Every stage has a default and can be replaced: the raster by setGeometry(), the noise by
- * setSensorNoise(), the segmentation by setSegmentation().
- * \ingroup mapping
+ * Every stage has a default and can be replaced: the raster by setGeometry(), the noise
+ * by setSensorNoise(), the segmentation by setSegmentation(). \ingroup mapping
  */
 template <typename PointT>
 class NurbsReconstruction : public PCLBase<PointT> {
@@ -148,7 +148,8 @@ private:
 
   std::optional<GridGeometry> geometry_;
   std::optional<SensorNoise> noise_;
-  typename CloudOrganizer<PointT>::Projection projection_ = CloudOrganizer<PointT>::AUTO;
+  typename CloudOrganizer<PointT>::Projection projection_ =
+      CloudOrganizer<PointT>::AUTO;
   typename Segmentation::Ptr segmentation_;
   nurbs::ReconstructionOptions options_;
 

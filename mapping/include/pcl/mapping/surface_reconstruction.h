@@ -19,8 +19,8 @@ namespace nurbs {
 /** \brief Options of reconstructSurfaces(). */
 struct PCL_NURBS_MAPPING_EXPORT ReconstructionOptions {
   /** Search for degrees and knots; its max_control_points limits each patch, and
-   * points_per_sample = 0 stands for what suits the sensor: neighbouring pixels of a depth
-   * camera err alike, so 64 of them count as one sample. */
+   * points_per_sample = 0 stands for what suits the sensor: neighbouring pixels of a
+   * depth camera err alike, so 64 of them count as one sample. */
   KnotSearchOptions knots;
   /** Fit of each patch. */
   SurfaceFitOptions fit;
@@ -59,14 +59,12 @@ struct Reconstruction {
 
 /** \brief Turn the segments of an organized cloud into trimmed patches.
  *
- * Each segment gets a projective frame (the sensor's own pixels with inverse depth, or a
- * base plane), in which it is a scalar field; knots are searched, the field is fitted, and
- * the points within tolerance are the patch, whose border in the grid becomes the trimming
- * loops. What is left of the segment is tried again in its connected parts.
- * \param[in] points the cloud
- * \param[in] labels segment of each cell, 0 for none
- * \param[in] noise depth noise of the sensor
- * \param[in] options see there
+ * Each segment gets a projective frame (the sensor's own pixels with inverse depth, or
+ * a base plane), in which it is a scalar field; knots are searched, the field is
+ * fitted, and the points within tolerance are the patch, whose border in the grid
+ * becomes the trimming loops. What is left of the segment is tried again in its
+ * connected parts. \param[in] points the cloud \param[in] labels segment of each cell,
+ * 0 for none \param[in] noise depth noise of the sensor \param[in] options see there
  * \throws std::invalid_argument if sizes do not match or an option is out of range
  * \ingroup mapping */
 PCL_NURBS_MAPPING_EXPORT Reconstruction

@@ -108,5 +108,5 @@ NurbsReconstruction<PointT>::segment()
 
 } // namespace pcl
 
-#define PCL_INSTANTIATE_NurbsReconstruction(T)                                           \
+#define PCL_INSTANTIATE_NurbsReconstruction(T)                                         \
   template class PCL_NURBS_MAPPING_EXPORT pcl::NurbsReconstruction<T>;
