@@ -76,7 +76,7 @@ typicalCorrelation(GridProjection projection)
  * std::domain_error if none does */
 SurfaceFit
 fitInFront(const HeightFieldFrame& frame,
-           const std::pair<KnotVector, KnotVector>& knots,
+           const SurfaceKnots& knots,
            const FitPoints& points,
            SurfaceFitOptions options)
 {
@@ -100,13 +100,19 @@ fitOnce(const ReconstructionInput& input,
         const FitPoints& fitted,
         const FitPoints& all,
         const KnotSearchOptions& options,
+        const FittedSurface* coarser,
         FittedSurface& surface)
 {
   try {
     FitReport search;
-    const auto knots =
-        chooseHeightFieldKnots(surface.frame.frame, fitted, options, search);
-    surface.fit = fitInFront(surface.frame.frame, knots, fitted, input.options.fit);
+    surface.knots =
+        chooseHeightFieldKnots(surface.frame.frame,
+                               fitted,
+                               options,
+                               search,
+                               coarser != nullptr ? &coarser->knots : nullptr);
+    surface.fit =
+        fitInFront(surface.frame.frame, surface.knots, fitted, input.options.fit);
     surface.fit.report.criterion = search.criterion;
     surface.fit.report.salient = std::move(search.salient);
   } catch (const std::domain_error&) {
@@ -131,7 +137,7 @@ fitInFrame(const ReconstructionInput& input,
   const bool automatic = options.points_per_sample == 0.0;
   if (automatic)
     options.points_per_sample = typicalCorrelation(input.points.geometry.projection);
-  if (!fitOnce(input, fitted, all, options, surface))
+  if (!fitOnce(input, fitted, all, options, nullptr, surface))
     return false;
   const double count = static_cast<double>(surface.cells.size());
   while (automatic && options.points_per_sample > 1.0 &&
@@ -140,7 +146,7 @@ fitInFrame(const ReconstructionInput& input,
     FittedSurface finer;
     finer.frame = surface.frame;
     finer.cells = surface.cells;
-    if (!fitOnce(input, fitted, all, options, finer) ||
+    if (!fitOnce(input, fitted, all, options, &surface, finer) ||
         static_cast<double>(finer.num_inliers) <
             static_cast<double>(surface.num_inliers) + kWorthwhile * count)
       break;

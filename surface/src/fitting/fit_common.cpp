@@ -141,7 +141,7 @@ solveLinear(const CellPoints& points,
             Eigen::MatrixXd& unknowns,
             FitReport& report)
 {
-  constexpr Eigen::Index kMostForCeres = 400;
+  constexpr Eigen::Index kMostForCeres = 200;
   report.undetermined = countUndetermined(points, cells);
   const double stiffness = options.fairness * totalInformation(cells);
   // A trace of membrane energy also holds degree 1, which has no second derivatives.

@@ -41,6 +41,12 @@ struct Axis {
   {
     return static_cast<int>(breaks.size()) - 2;
   }
+
+  bool
+  operator==(const Axis& other) const
+  {
+    return degree == other.degree && breaks == other.breaks;
+  }
 };
 
 struct Model {
@@ -68,7 +74,10 @@ sampleNoise(const SampleGrid& samples, double stated)
 /** Tries models on the samples. */
 class KnotSearch {
 public:
-  KnotSearch(const SampleGrid& samples, double noise, const KnotSearchOptions& options)
+  KnotSearch(const SampleGrid& samples,
+             double noise,
+             const KnotSearchOptions& options,
+             const SurfaceKnots* start)
       : samples_(samples),
         options_(options),
         stated_(noise),
@@ -78,6 +87,10 @@ public:
                       samples.low.x() + samples.rows * samples.bin_size.x()};
     best_.v.breaks = {samples.low.y(),
                       samples.low.y() + samples.columns * samples.bin_size.y()};
+    if (start != nullptr) {
+      best_.u = {start->first.degree(), start->first.breaks()};
+      best_.v = {start->second.degree(), start->second.breaks()};
+    }
     evaluate(best_);
   }
 
@@ -248,7 +261,12 @@ private:
   {
     std::vector<Model> moves;
     const auto add = [&](Axis u, Axis v) {
-      if (u.degree > options_.max_degree || v.degree > options_.max_degree)
+      const bool known =
+          std::any_of(moves.begin(), moves.end(), [&](const Model& move) {
+            return move.u == u && move.v == v;
+          });
+      if (u.degree > options_.max_degree || v.degree > options_.max_degree || known ||
+          (u == best_.u && v == best_.v))
         return;
       moves.emplace_back(std::move(u), std::move(v));
     };
@@ -340,16 +358,20 @@ modelCriterion(ModelCriterion criterion, double samples, double rss, double para
 }
 
 KnotSearchResult
-searchKnots(const SampleGrid& samples, double noise, const KnotSearchOptions& options)
+searchKnots(const SampleGrid& samples,
+            double noise,
+            const KnotSearchOptions& options,
+            const SurfaceKnots* start)
 {
-  return KnotSearch(samples, noise, options).run();
+  return KnotSearch(samples, noise, options, start).run();
 }
 
-std::pair<KnotVector, KnotVector>
+SurfaceKnots
 searchBinned(const Eigen::Matrix2Xd& parameters,
              const Eigen::MatrixXd& values,
              const Eigen::VectorXd& sigma,
              const KnotSearchOptions& options,
+             const SurfaceKnots* start,
              FitReport& report)
 {
   constexpr double kFewestSamples = 16.0;
@@ -365,7 +387,7 @@ searchBinned(const Eigen::Matrix2Xd& parameters,
                            sigma.array().square().inverse(),
                            static_cast<int>(target));
   KnotSearchResult result =
-      searchKnots(samples, 1.0, options); // weights are 1 / sigma^2
+      searchKnots(samples, 1.0, options, start); // weights: 1 / sigma^2
   report.criterion = result.criterion;
   report.salient = std::move(result.salient);
   return {std::move(result.knots_u), std::move(result.knots_v)};

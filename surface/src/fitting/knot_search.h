@@ -37,21 +37,27 @@ modelCriterion(ModelCriterion criterion, double samples, double rss, double para
  * the criterion falls, and knots it no longer needs are taken out again. \param[in]
  * samples binned points \param[in] noise stated standard deviation of a value of unit
  * weight; what the samples themselves show comes first, except for KnownNoise
- * \param[in] options limits and criterion */
+ * \param[in] options limits and criterion
+ * \param[in] start model to begin with instead, over the same domain; null for none */
 KnotSearchResult
-searchKnots(const SampleGrid& samples, double noise, const KnotSearchOptions& options);
+searchKnots(const SampleGrid& samples,
+            double noise,
+            const KnotSearchOptions& options,
+            const SurfaceKnots* start = nullptr);
 
 /** \brief Bin points over the box of their parameters and search.
  * \param[in] parameters (u, v) of each point
  * \param[in] values one row per point
  * \param[in] sigma standard deviation of each point's values
  * \param[in] options limits and criterion
+ * \param[in] start see searchKnots()
  * \param[out] report criterion and remaining salient regions are set */
-std::pair<KnotVector, KnotVector>
+SurfaceKnots
 searchBinned(const Eigen::Matrix2Xd& parameters,
              const Eigen::MatrixXd& values,
              const Eigen::VectorXd& sigma,
              const KnotSearchOptions& options,
+             const SurfaceKnots* start,
              FitReport& report);
 
 } // namespace nurbs

@@ -228,7 +228,7 @@ fitParametric(const KnotVector& knots_u,
   return ParametricFit(knots_u, knots_v, split, options, constraints, weights).run();
 }
 
-std::pair<KnotVector, KnotVector>
+SurfaceKnots
 chooseParametricKnots(const FitPoints& points,
                       const KnotSearchOptions& options,
                       FitReport& report)
@@ -240,6 +240,7 @@ chooseParametricKnots(const FitPoints& points,
                       split.fitted.positions.transpose(),
                       split.fitted.sigma,
                       options,
+                      nullptr,
                       report);
 }
 
