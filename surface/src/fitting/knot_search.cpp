@@ -8,8 +8,6 @@
 #include "group_testing.h"
 #include "normal_equations.h"
 
-#include <pcl/surface/nurbs/surface_fitter.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
