@@ -103,9 +103,8 @@ private:
 ceres::Solver::Options
 solverOptions(const CeresLimits& limits, Eigen::Index unknowns)
 {
-  constexpr Eigen::Index kDenseLimit = 100;
   ceres::Solver::Options options;
-  options.linear_solver_type = unknowns <= kDenseLimit ? ceres::DENSE_NORMAL_CHOLESKY
+  options.linear_solver_type = unknowns <= limits.dense_unknowns ? ceres::DENSE_NORMAL_CHOLESKY
                                                        : ceres::SPARSE_NORMAL_CHOLESKY;
   options.num_threads = limits.threads;
   options.max_num_iterations = limits.max_iterations;
@@ -214,6 +213,7 @@ solveNonlinearCells(const CellPoints& points,
   ceres::Solver::Options options = solverOptions(limits, unknowns.size());
   if (options.linear_solver_type == ceres::DENSE_NORMAL_CHOLESKY)
     options.linear_solver_type = ceres::DENSE_QR; // copes with unknowns that may slide
+  options.initial_trust_region_radius = limits.trust_radius;
   options.gradient_tolerance = 0.0; // scale-free stopping: by cost and by step only
   return solve(options, problem);
 }

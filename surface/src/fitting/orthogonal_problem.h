@@ -25,6 +25,14 @@ public:
   virtual int
   channels() const = 0;
 
+  /** \brief Whether the points hardly determine some directions of the unknowns, so that
+   * the condition of the problem must not be squared. */
+  virtual bool
+  illConditioned() const
+  {
+    return false;
+  }
+
   /** \brief Surface of channels() x (control points) unknowns.
    * \throws std::invalid_argument or std::domain_error if there is none */
   virtual NurbsSurface
@@ -86,6 +94,12 @@ public:
     return weights_too_ ? 4 : 3;
   }
 
+  bool
+  illConditioned() const override
+  {
+    return weights_too_;
+  }
+
   NurbsSurface
   surface(const Eigen::MatrixXd& unknowns) const override;
 
@@ -107,7 +121,10 @@ private:
  *
  * A point inside gives one row, along the normal. With several unknowns per control
  * point the surface could also slide along itself, which no normal sees: two tangential
- * rows with a small weight and no residual damp that without moving the minimum. There
+ * rows with a small weight and no residual damp that without moving the minimum. Their
+ * weight falls with the distances (as the Levenberg-Marquardt parameter of Yamashita and
+ * Fukushima 2001 does), so that exact points are found at a fast rate although many
+ * surfaces solve the problem. There
  * the foot may also leave the domain, where the surface is extrapolated, so that the
  * problem stays smooth at the border; extendedDomain() then takes these feet in. */
 class OrthogonalProblem : public CellLinearizer {
@@ -152,6 +169,12 @@ private:
                  PointTerms& terms) const;
 
   void
+  dampSliding(PointTerms& terms) const;
+
+  PointRows
+  momentRows(const CellPoints& points, const PointTerms& terms, int channels) const;
+
+  void
   reduce(const Eigen::MatrixXd& unknowns,
          const Eigen::Matrix2Xd& parameters,
          const PointTerms& terms,
@@ -165,6 +188,7 @@ private:
   Eigen::Matrix2Xd parameters_;
   const Eigen::VectorXd& sigma_;
   const SurfaceFitOptions& options_;
+  double extent_; // diagonal of the points' box, metres
 };
 
 /** \brief The same surface over a domain that holds all parameters: the border spans

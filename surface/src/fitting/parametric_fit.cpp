@@ -260,9 +260,11 @@ fitRational(const NurbsSurface& start,
                             options);
   const CellPoints cells(start.knotsU(), start.knotsV(), split.fitted.parameters);
   Eigen::MatrixXd values = start.homogeneousPoints();
+  CeresLimits limits = ceresLimits(options);
+  limits.trust_radius = 1e12; // the problem damps itself
+  limits.dense_unknowns = 512;
   SurfaceFit fit;
-  const CeresReport solved =
-      solveNonlinearCells(cells, problem, {}, ceresLimits(options), values);
+  const CeresReport solved = solveNonlinearCells(cells, problem, {}, limits, values);
   fit.report.converged = solved.converged;
   fit.report.iterations = solved.iterations;
   fit.report.message = solved.usable ? "" : solved.message;
