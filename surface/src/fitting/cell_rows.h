@@ -17,7 +17,8 @@ namespace nurbs {
  * factors(a, r) B_i x_{i,a} = target(r). */
 struct PlainRows {
   int per_point = 1;
-  Eigen::MatrixXd factors; /**< channels x (per_point * points), points in their order */
+  Eigen::MatrixXd
+      factors; /**< channels x (per_point * points), points in their order */
   Eigen::VectorXd targets; /**< per_point * points */
 };
 

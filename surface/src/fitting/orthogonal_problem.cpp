@@ -175,14 +175,21 @@ OrthogonalProblem::evaluatePoints(const NurbsSurface& surface,
     dampSliding(terms);
 }
 
+double
+OrthogonalProblem::costOf(double distance) const
+{
+  return 0.5 * std::pow(distance * extent_, 2) *
+         sigma_.array().square().inverse().sum();
+}
+
 void
 OrthogonalProblem::dampSliding(PointTerms& terms) const
 {
   constexpr double kLargestWeight = 1e-3;
   const Eigen::Index count = positions_.cols();
-  const double distance = std::sqrt(terms.residual.squaredNorm() /
-                                    sigma_.array().square().inverse().sum());
-  const double weight = std::min(kLargestWeight, (getenv("SW")?atof(getenv("SW")):1.)*distance / extent_);
+  const double distance =
+      std::sqrt(0.5 * terms.residual.squaredNorm() / costOf(1.0)); // of the extent
+  const double weight = std::min(kLargestWeight, damping_ * distance);
   for (Eigen::Index k = 0; k < count; ++k)
     terms.factors.middleCols(rowsPerPoint() * k + 1, rowsPerPoint() - 1) *=
         std::sqrt(weight);
@@ -232,8 +239,8 @@ OrthogonalProblem::reduce(const Eigen::MatrixXd& unknowns,
     }
   std::vector<CellEquations> equations = reduceCells(points, rows, options_.threads);
   if (options_.fairness > 0.0) {
-    const Eigen::Index size = channels * (points.cells_u.degree() + 1) *
-                              (points.cells_v.degree() + 1);
+    const Eigen::Index size =
+        channels * (points.cells_u.degree() + 1) * (points.cells_v.degree() + 1);
     for (CellEquations& cell : equations)
       if (plain) {
         cell.gram.setZero(size, size);

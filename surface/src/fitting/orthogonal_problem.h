@@ -25,8 +25,8 @@ public:
   virtual int
   channels() const = 0;
 
-  /** \brief Whether the points hardly determine some directions of the unknowns, so that
-   * the condition of the problem must not be squared. */
+  /** \brief Whether the points hardly determine some directions of the unknowns, so
+   * that the condition of the problem must not be squared. */
   virtual bool
   illConditioned() const
   {
@@ -122,8 +122,8 @@ private:
  * A point inside gives one row, along the normal. With several unknowns per control
  * point the surface could also slide along itself, which no normal sees: two tangential
  * rows with a small weight and no residual damp that without moving the minimum. Their
- * weight falls with the distances (as the Levenberg-Marquardt parameter of Yamashita and
- * Fukushima 2001 does), so that exact points are found at a fast rate although many
+ * weight falls with the distances (as the Levenberg-Marquardt parameter of Yamashita
+ * and Fukushima 2001 does), so that exact points are found at a fast rate although many
  * surfaces solve the problem. There
  * the foot may also leave the domain, where the surface is extrapolated, so that the
  * problem stays smooth at the border; extendedDomain() then takes these feet in. */
@@ -146,6 +146,18 @@ public:
   linearize(const Eigen::MatrixXd& unknowns,
             bool derivatives,
             std::vector<TriangularCell>& cells) override;
+
+  /** \brief Weight of sliding relative to the distances left over the extent of the
+   * points; 1 at first. Less is faster where it does not overshoot. */
+  void
+  setDamping(double damping)
+  {
+    damping_ = damping;
+  }
+
+  /** \brief Cost of points that all are \a distance times their extent away. */
+  double
+  costOf(double distance) const;
 
   /** \brief Foot points at the last unknowns whose derivatives were asked for. */
   const Eigen::Matrix2Xd&
@@ -188,6 +200,7 @@ private:
   Eigen::Matrix2Xd parameters_;
   const Eigen::VectorXd& sigma_;
   const SurfaceFitOptions& options_;
+  double damping_ = 1.0;
   double extent_; // diagonal of the points' box, metres
 };
 

@@ -243,36 +243,5 @@ chooseParametricKnots(const FitPoints& points,
                       report);
 }
 
-SurfaceFit
-fitRational(const NurbsSurface& start,
-            const FitPoints& points,
-            const SurfaceFitOptions& options)
-{
-  const SplitPoints split(points, options);
-  if (points.parameters.cols() == 0)
-    throw std::invalid_argument("rational fit: points need parameters");
-  const HomogeneousUnknowns unknowns(start, true);
-  OrthogonalProblem problem(unknowns,
-                            start,
-                            split.fitted.positions,
-                            split.fitted.parameters,
-                            split.fitted.sigma,
-                            options);
-  const CellPoints cells(start.knotsU(), start.knotsV(), split.fitted.parameters);
-  Eigen::MatrixXd values = start.homogeneousPoints();
-  CeresLimits limits = ceresLimits(options);
-  limits.trust_radius = 1e12; // the problem damps itself
-  limits.dense_unknowns = 512;
-  SurfaceFit fit;
-  const CeresReport solved = solveNonlinearCells(cells, problem, {}, limits, values);
-  fit.report.converged = solved.converged;
-  fit.report.iterations = solved.iterations;
-  fit.report.message = solved.usable ? "" : solved.message;
-  fit.parameters = problem.parameters();
-  fit.surface = extendedDomain(unknowns.surface(values), fit.parameters);
-  measureFit(split, options, fit);
-  return fit;
-}
-
 } // namespace nurbs
 } // namespace pcl
