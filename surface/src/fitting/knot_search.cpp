@@ -78,6 +78,8 @@ public:
                       samples.low.x() + samples.rows * samples.bin_size.x()};
     best_.v.breaks = {samples.low.y(),
                       samples.low.y() + samples.columns * samples.bin_size.y()};
+    best_.u.degree = std::max(1, options.degree_u);
+    best_.v.degree = std::max(1, options.degree_v);
     evaluate(best_);
   }
 
@@ -243,12 +245,19 @@ private:
     return result;
   }
 
+  bool
+  allowed(const Axis& axis, int fixed_degree) const
+  {
+    return fixed_degree > 0 ? axis.degree == fixed_degree
+                            : axis.degree <= options_.max_degree;
+  }
+
   std::vector<Model>
   growthMoves() const
   {
     std::vector<Model> moves;
     const auto add = [&](Axis u, Axis v) {
-      if (u.degree > options_.max_degree || v.degree > options_.max_degree)
+      if (!allowed(u, options_.degree_u) || !allowed(v, options_.degree_v))
         return;
       moves.emplace_back(std::move(u), std::move(v));
     };
@@ -287,9 +296,9 @@ private:
       for (std::size_t k = 1; k + 1 < best_.v.breaks.size(); ++k)
         moves.emplace_back(best_.u, without(best_.v, k));
     }
-    if (best_.u.degree > 1)
+    if (best_.u.degree > 1 && options_.degree_u == 0)
       moves.emplace_back(Axis{best_.u.degree - 1, best_.u.breaks}, best_.v);
-    if (best_.v.degree > 1)
+    if (best_.v.degree > 1 && options_.degree_v == 0)
       moves.emplace_back(best_.u, Axis{best_.v.degree - 1, best_.v.breaks});
     return moves;
   }
