@@ -71,10 +71,38 @@ mapPlane(const GridGeometry& geometry)
   return HeightFieldFrame::plane(pose);
 }
 
+/** Slab of the largest sheet of a segment. Sheets of a segment are large and bend a
+ * little: the slab is as thick as a share of the segment's extent. */
+Slab
+slabOf(const Eigen::Matrix3Xd& positions, double noise)
+{
+  constexpr double kSigmas = 4.0;
+  constexpr double kShare = 0.05; // of the standard deviation of the points
+  const Eigen::Vector3d mean = positions.rowwise().mean();
+  const double spread = std::sqrt((positions.colwise() - mean).squaredNorm() /
+                                  static_cast<double>(positions.cols()));
+  return robustSlab(positions, std::max(kSigmas * noise, kShare * spread));
+}
+
+/** Base plane of the points in a slab. */
+HeightFieldFrame
+planeIn(const Slab& slab, const Eigen::Matrix3Xd& positions)
+{
+  Eigen::Matrix3Xd inside(3, positions.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index k = 0; k < positions.cols(); ++k)
+    if (slab.contains(positions.col(k)))
+      inside.col(count++) = positions.col(k);
+  return HeightFieldFrame::plane(
+      basePlane(count < 3 ? positions : Eigen::Matrix3Xd(inside.leftCols(count))));
+}
+
 } // namespace
 
 std::vector<FrameCandidate>
-candidateFrames(const GridGeometry& geometry, const Eigen::Matrix3Xd& positions)
+candidateFrames(const GridGeometry& geometry,
+                const Eigen::Matrix3Xd& positions,
+                double noise)
 {
   std::vector<FrameCandidate> result;
   if (geometry.projection == GridProjection::perspective) {
@@ -82,17 +110,23 @@ candidateFrames(const GridGeometry& geometry, const Eigen::Matrix3Xd& positions)
     result.push_back(
         {HeightFieldFrame::perspective(
              camera.fx, camera.fy, camera.cx, camera.cy, sensorPose(geometry)),
-         true});
+         true,
+         {}});
   }
-  if (geometry.projection == GridProjection::plane)
-    result.push_back({mapPlane(geometry), false});
-  else
-    result.push_back({HeightFieldFrame::plane(basePlane(positions)), false});
+  const Slab slab = slabOf(positions, noise);
+  if (geometry.projection == GridProjection::plane) {
+    result.push_back({mapPlane(geometry), false, {}});
+    result.push_back({mapPlane(geometry), false, slab});
+  }
+  else {
+    result.push_back({HeightFieldFrame::plane(basePlane(positions)), false, {}});
+    result.push_back({planeIn(slab, positions), false, slab});
+  }
   if (geometry.projection == GridProjection::spherical) {
     const Eigen::Isometry3d view = viewOf(positions);
     if (fitsView(view, positions))
       result.push_back(
-          {HeightFieldFrame::perspective(1.0, 1.0, 0.0, 0.0, view), false});
+          {HeightFieldFrame::perspective(1.0, 1.0, 0.0, 0.0, view), false, {}});
   }
   return result;
 }

@@ -31,6 +31,22 @@ gather(const ReconstructionInput& input, const CellSet& cells, bool held_out_too
   return result;
 }
 
+/** The points inside of a slab. */
+FitPoints
+inside(const Slab& slab, const FitPoints& points)
+{
+  FitPoints result = points;
+  Eigen::Index count = 0;
+  for (Eigen::Index k = 0; k < points.positions.cols(); ++k)
+    if (slab.contains(points.positions.col(k))) {
+      result.positions.col(count) = points.positions.col(k);
+      result.sigma(count++) = points.sigma(k);
+    }
+  result.positions.conservativeResize(Eigen::NoChange, count);
+  result.sigma.conservativeResize(count);
+  return result;
+}
+
 /** Distances of all cells from the fitted surface, and who is within tolerance. */
 void
 judge(const ReconstructionInput& input, const FitPoints& all, FittedSurface& surface)
@@ -179,12 +195,13 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
     return false;
   const FitPoints all = gather(input, cells, true);
   bool found = false;
-  for (FrameCandidate& candidate :
-       candidateFrames(input.points.geometry, all.positions)) {
+  for (FrameCandidate& candidate : candidateFrames(
+           input.points.geometry, all.positions, all.sigma.mean())) {
     FittedSurface attempt;
     attempt.frame = std::move(candidate);
     attempt.cells = cells;
-    if (!fitInFrame(input, fitted, all, attempt))
+    const std::optional<Slab>& slab = attempt.frame.slab;
+    if (!fitInFrame(input, slab ? inside(*slab, fitted) : fitted, all, attempt))
       continue;
     if (!found || attempt.num_inliers > surface.num_inliers)
       surface = std::move(attempt);

@@ -3,6 +3,7 @@
 
 #include <pcl/mapping/surface_reconstruction.h>
 
+#include "mask_operations.h"
 #include "patch_trimming.h"
 #include "segment_fitting.h"
 
@@ -52,7 +53,7 @@ public:
       tasks.pop_back();
       CellSet rest = task.cells;
       if (addPatch(task.cells, rest) && task.depth < kMostDepth)
-        for (CellSet& part : connectedParts(rest))
+        for (CellSet& part : connectedParts(input_.points.geometry, rest, waiting_))
           tasks.push_back({std::move(part), task.depth + 1});
     }
     return std::move(result_);
@@ -102,48 +103,6 @@ private:
     result_.patches.push_back(std::move(part.patch));
     result_.cells.push_back(std::move(cells));
     result_.distances.push_back(std::move(distances));
-  }
-
-  /** 4-connected parts of a set of cells, each in increasing order. */
-  std::vector<CellSet>
-  connectedParts(const CellSet& cells)
-  {
-    const int width = input_.points.geometry.width;
-    const int height = input_.points.geometry.height;
-    if (waiting_.empty())
-      waiting_.assign(input_.points.size(), 0);
-    for (std::int32_t cell : cells)
-      waiting_[static_cast<std::size_t>(cell)] = 1;
-    std::vector<CellSet> parts;
-    for (std::int32_t start : cells) {
-      if (waiting_[static_cast<std::size_t>(start)] == 0)
-        continue;
-      CellSet part(1, start);
-      waiting_[static_cast<std::size_t>(start)] = 0;
-      for (std::size_t k = 0; k < part.size(); ++k) {
-        const std::int32_t cell = part[k];
-        const int column = cell % width;
-        const int row = cell / width;
-        const auto visit = [&](int c, int r) {
-          if (input_.points.geometry.wrap)
-            c = (c + width) % width;
-          if (c < 0 || r < 0 || c >= width || r >= height)
-            return;
-          const std::int32_t next = r * width + c;
-          if (waiting_[static_cast<std::size_t>(next)] != 0) {
-            waiting_[static_cast<std::size_t>(next)] = 0;
-            part.push_back(next);
-          }
-        };
-        visit(column + 1, row);
-        visit(column - 1, row);
-        visit(column, row + 1);
-        visit(column, row - 1);
-      }
-      std::sort(part.begin(), part.end());
-      parts.push_back(std::move(part));
-    }
-    return parts;
   }
 
   const ReconstructionInput& input_;
