@@ -195,8 +195,13 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
     return false;
   const FitPoints all = gather(input, cells, true);
   bool found = false;
-  for (FrameCandidate& candidate : candidateFrames(
-           input.points.geometry, fitted.positions, fitted.sigma.mean())) {
+  bool seen = false; // by a camera
+  for (FrameCandidate& candidate :
+       candidateFrames(input.points.geometry, fitted.positions, fitted.sigma.mean())) {
+    const bool view = candidate.corners != CornerRule::Surface;
+    if (found && seen && !view)
+      break; // a camera's base planes are for what its own view cannot hold
+    seen = seen || candidate.corners == CornerRule::Grid;
     FittedSurface attempt;
     attempt.frame = std::move(candidate);
     attempt.cells = cells;
@@ -206,9 +211,8 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
     if (!found || attempt.num_inliers > surface.num_inliers)
       surface = std::move(attempt);
     found = true;
-    if (surface.frame.grid_parameters ||
-        static_cast<double>(surface.num_inliers) >=
-            kGoodEnough * static_cast<double>(fitted.sigma.size()))
+    if (static_cast<double>(surface.num_inliers) >=
+        kGoodEnough * static_cast<double>(fitted.sigma.size()))
       break;
   }
   surface.noise =
