@@ -52,8 +52,8 @@ framed(const CellMask& mask, int margin)
   for (int row = 0; row < mask.height; ++row)
     std::copy_n(mask.cells.begin() + static_cast<std::ptrdiff_t>(indexOf(mask, 0, row)),
                 mask.width,
-                result.cells.begin() + static_cast<std::ptrdiff_t>(
-                                           indexOf(result, margin, row + margin)));
+                result.cells.begin() +
+                    static_cast<std::ptrdiff_t>(indexOf(result, margin, row + margin)));
   return result;
 }
 
@@ -83,11 +83,8 @@ spread(CellMask& mask, int radius, char value)
   for (int row = 0; row < mask.height; ++row)
     spread(&mask.cells[indexOf(mask, 0, row)], mask.width, 1, radius, value);
   for (int column = 0; column < mask.width; ++column)
-    spread(&mask.cells[indexOf(mask, column, 0)],
-           mask.height,
-           mask.width,
-           radius,
-           value);
+    spread(
+        &mask.cells[indexOf(mask, column, 0)], mask.height, mask.width, radius, value);
 }
 
 /** Collects a connected part; takes its cells from the waiting ones. */
@@ -171,10 +168,9 @@ clearSmallParts(CellMask& mask, const CellMask& samples, int fewest)
       continue;
     const std::vector<std::int32_t> part =
         collector.collect(static_cast<std::int32_t>(start));
-    const auto count =
-        std::count_if(part.begin(), part.end(), [&](std::int32_t cell) {
-          return samples.cells[static_cast<std::size_t>(cell)] != 0;
-        });
+    const auto count = std::count_if(part.begin(), part.end(), [&](std::int32_t cell) {
+      return samples.cells[static_cast<std::size_t>(cell)] != 0;
+    });
     if (count < fewest)
       for (const std::int32_t cell : part)
         mask.cells[static_cast<std::size_t>(cell)] = 0;

@@ -33,8 +33,7 @@ thinned(const Eigen::Matrix3Xd& positions)
 double
 cost(const Plane& plane, const Eigen::Matrix3Xd& points, double reach)
 {
-  const auto distances =
-      (plane.normal().transpose() * points).array() + plane.offset();
+  const auto distances = (plane.normal().transpose() * points).array() + plane.offset();
   return distances.square().min(reach * reach).sum();
 }
 

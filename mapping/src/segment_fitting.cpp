@@ -195,8 +195,8 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
     return false;
   const FitPoints all = gather(input, cells, true);
   bool found = false;
-  for (FrameCandidate& candidate : candidateFrames(
-           input.points.geometry, all.positions, all.sigma.mean())) {
+  for (FrameCandidate& candidate :
+       candidateFrames(input.points.geometry, all.positions, all.sigma.mean())) {
     FittedSurface attempt;
     attempt.frame = std::move(candidate);
     attempt.cells = cells;
