@@ -8,8 +8,6 @@
 #include "group_testing.h"
 #include "normal_equations.h"
 
-#include <pcl/surface/nurbs/surface_fitter.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,6 +85,8 @@ public:
                       samples.low.x() + samples.rows * samples.bin_size.x()};
     best_.v.breaks = {samples.low.y(),
                       samples.low.y() + samples.columns * samples.bin_size.y()};
+    best_.u.degree = std::max(1, options.degree_u);
+    best_.v.degree = std::max(1, options.degree_v);
     if (start != nullptr) {
       best_.u = {start->first.degree(), start->first.breaks()};
       best_.v = {start->second.degree(), start->second.breaks()};
@@ -256,6 +256,13 @@ private:
     return result;
   }
 
+  bool
+  allowed(const Axis& axis, int fixed_degree) const
+  {
+    return fixed_degree > 0 ? axis.degree == fixed_degree
+                            : axis.degree <= options_.max_degree;
+  }
+
   std::vector<Model>
   growthMoves() const
   {
@@ -265,8 +272,8 @@ private:
           std::any_of(moves.begin(), moves.end(), [&](const Model& move) {
             return move.u == u && move.v == v;
           });
-      if (u.degree > options_.max_degree || v.degree > options_.max_degree || known ||
-          (u == best_.u && v == best_.v))
+      if (known || (u == best_.u && v == best_.v) || !allowed(u, options_.degree_u) ||
+          !allowed(v, options_.degree_v))
         return;
       moves.emplace_back(std::move(u), std::move(v));
     };
@@ -305,9 +312,9 @@ private:
       for (std::size_t k = 1; k + 1 < best_.v.breaks.size(); ++k)
         moves.emplace_back(best_.u, without(best_.v, k));
     }
-    if (best_.u.degree > 1)
+    if (best_.u.degree > 1 && options_.degree_u == 0)
       moves.emplace_back(Axis{best_.u.degree - 1, best_.u.breaks}, best_.v);
-    if (best_.v.degree > 1)
+    if (best_.v.degree > 1 && options_.degree_v == 0)
       moves.emplace_back(best_.u, Axis{best_.v.degree - 1, best_.v.breaks});
     return moves;
   }

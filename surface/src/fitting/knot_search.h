@@ -7,6 +7,7 @@
 
 #include <pcl/surface/nurbs/fit_options.h>
 #include <pcl/surface/nurbs/knot_vector.h>
+#include <pcl/surface/nurbs/surface_fitter.h>
 
 #include <utility>
 #include <vector>

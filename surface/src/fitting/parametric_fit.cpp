@@ -244,34 +244,5 @@ chooseParametricKnots(const FitPoints& points,
                       report);
 }
 
-SurfaceFit
-fitRational(const NurbsSurface& start,
-            const FitPoints& points,
-            const SurfaceFitOptions& options)
-{
-  const SplitPoints split(points, options);
-  if (points.parameters.cols() == 0)
-    throw std::invalid_argument("rational fit: points need parameters");
-  const HomogeneousUnknowns unknowns(start, true);
-  OrthogonalProblem problem(unknowns,
-                            start,
-                            split.fitted.positions,
-                            split.fitted.parameters,
-                            split.fitted.sigma,
-                            options);
-  const CellPoints cells(start.knotsU(), start.knotsV(), split.fitted.parameters);
-  Eigen::MatrixXd values = start.homogeneousPoints();
-  SurfaceFit fit;
-  const CeresReport solved =
-      solveNonlinearCells(cells, problem, {}, ceresLimits(options), values);
-  fit.report.converged = solved.converged;
-  fit.report.iterations = solved.iterations;
-  fit.report.message = solved.usable ? "" : solved.message;
-  fit.parameters = problem.parameters();
-  fit.surface = extendedDomain(unknowns.surface(values), fit.parameters);
-  measureFit(split, options, fit);
-  return fit;
-}
-
 } // namespace nurbs
 } // namespace pcl
