@@ -77,7 +77,7 @@ private:
         continue;
       const double whole = difference(last[0].where, last[2].where);
       const double share = difference(last[0].where, last[1].where) / whole;
-      if (share > 0.2 && share < 0.8)
+      if (whole != 0.0 && share >= 0.0 && share <= 1.0)
         add(last[1].cell,
             last[0].cell,
             last[2].cell,

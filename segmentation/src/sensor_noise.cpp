@@ -61,8 +61,9 @@ spreadOf(NoiseBin& bin, std::size_t direction, const Share& share)
 }
 
 /** What the deviations along columns have in excess of those along rows, at least,
- * in any bin. Rings of a laser are aligned to each other to so much only; where rings
- * lie far apart, the excess is the roughness of the scene. */
+ * in any bin. Rings of a laser are aligned to each other to so much only; farther away,
+ * where rings lie apart and graze the ground, errors of their angle and the roughness
+ * of the scene add to it. */
 double
 excessAlongColumns(std::vector<NoiseBin>& bins, const Share& share)
 {
