@@ -208,7 +208,12 @@ chooseHeightFieldKnots(const HeightFieldFrame& frame,
 {
   const SplitPoints split(points, SurfaceFitOptions());
   const LocalPoints local = toLocal(frame, split.fitted);
-  return searchBinned(local.parameters, local.heights, local.sigma, options, report);
+  return searchBinned(local.parameters,
+                      local.heights,
+                      local.sigma,
+                      points.sigma.size() != 0,
+                      options,
+                      report);
 }
 
 } // namespace nurbs
