@@ -5,7 +5,7 @@
 
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libpcl-dev libceres-dev libzstd-dev
   nlohmann-json3-dev libpng-dev libboost-program-options-dev)
-TEST_PACKAGES=(libgtest-dev libsisl-dev)
+TEST_PACKAGES=(libgtest-dev libsisl-dev python3)
 
 is_installed() {
   [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]

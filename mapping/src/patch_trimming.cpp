@@ -113,14 +113,28 @@ public:
   {
     const Eigen::Vector2d lattice =
         corner.cast<double>() + window_.origin() - Eigen::Vector2d(0.5, 0.5);
-    const Eigen::Vector2d uv =
-        surface_.frame.grid_parameters ? lattice : fromCells(corner, lattice);
+    const Eigen::Vector2d uv = uvOf(corner, lattice);
     const NurbsSurface& surface = surface_.fit.surface;
     return {surface.knotsU().clampToDomain(uv.x()),
             surface.knotsV().clampToDomain(uv.y())};
   }
 
 private:
+  Eigen::Vector2d
+  uvOf(const Eigen::Vector2i& corner, const Eigen::Vector2d& lattice) const
+  {
+    switch (surface_.frame.corners) {
+    case CornerRule::Grid:
+      return lattice;
+    case CornerRule::View:
+      return surface_.frame.frame.toLocal(geometry_.direction(lattice.x(), lattice.y()))
+          .head<2>();
+    case CornerRule::Surface:
+      break;
+    }
+    return fromCells(corner, lattice);
+  }
+
   int
   cellAt(const Eigen::Vector2i& place) const
   {

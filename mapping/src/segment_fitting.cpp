@@ -64,10 +64,9 @@ judge(const ReconstructionInput& input, const FitPoints& all, FittedSurface& sur
   for (std::size_t k = 0; k < surface.cells.size(); ++k) {
     surface.inlier[k] = std::abs(surface.distances(static_cast<Eigen::Index>(k))) <=
                         input.tolerance(surface.cells[k]);
-    surface.num_inliers += surface.inlier[k] ? 1 : 0;
+    const bool held_out = input.held_out[static_cast<std::size_t>(surface.cells[k])];
+    surface.num_inliers += surface.inlier[k] && !held_out ? 1 : 0;
   }
-  surface.noise =
-      std::sqrt(all.sigma.squaredNorm() / static_cast<double>(all.sigma.size()));
 }
 
 /** How many neighbouring points err alike, at first: a Kinect's disparities are matched
@@ -155,7 +154,7 @@ fitInFrame(const ReconstructionInput& input,
     options.points_per_sample = typicalCorrelation(input.points.geometry.projection);
   if (!fitOnce(input, fitted, all, options, nullptr, surface))
     return false;
-  const double count = static_cast<double>(surface.cells.size());
+  const double count = static_cast<double>(fitted.sigma.size());
   while (automatic && options.points_per_sample > 1.0 &&
          static_cast<double>(surface.num_inliers) < kExplained * count) {
     options.points_per_sample = std::max(1.0, 0.25 * options.points_per_sample);
@@ -176,7 +175,8 @@ fitInFrame(const ReconstructionInput& input,
 double
 ReconstructionInput::sigma(std::int32_t cell) const
 {
-  return noise.sigma(points.depth[static_cast<std::size_t>(cell)]);
+  const double depth = points.depth[static_cast<std::size_t>(cell)];
+  return std::max(noise.sigma(depth), least_sigma);
 }
 
 double
@@ -195,8 +195,13 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
     return false;
   const FitPoints all = gather(input, cells, true);
   bool found = false;
+  bool seen = false; // by a camera
   for (FrameCandidate& candidate :
-       candidateFrames(input.points.geometry, all.positions, all.sigma.mean())) {
+       candidateFrames(input.points.geometry, fitted.positions, fitted.sigma.mean())) {
+    const bool view = candidate.corners != CornerRule::Surface;
+    if (found && seen && !view)
+      break; // a camera's base planes are for what its own view cannot hold
+    seen = seen || candidate.corners == CornerRule::Grid;
     FittedSurface attempt;
     attempt.frame = std::move(candidate);
     attempt.cells = cells;
@@ -206,11 +211,12 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
     if (!found || attempt.num_inliers > surface.num_inliers)
       surface = std::move(attempt);
     found = true;
-    if (surface.frame.grid_parameters ||
-        static_cast<double>(surface.num_inliers) >=
-            kGoodEnough * static_cast<double>(cells.size()))
+    if (static_cast<double>(surface.num_inliers) >=
+        kGoodEnough * static_cast<double>(fitted.sigma.size()))
       break;
   }
+  surface.noise =
+      std::sqrt(fitted.sigma.squaredNorm() / static_cast<double>(fitted.sigma.size()));
   return found;
 }
 

@@ -27,7 +27,7 @@ struct FittedSurface {
   Eigen::VectorXd distances;   /**< signed orthogonal distance of each, metres */
   std::vector<bool> inlier;    /**< whether each is within tolerance */
   double noise = 0.0;          /**< root mean square of the sensor's noise, metres */
-  std::size_t num_inliers = 0;
+  std::size_t num_inliers = 0; /**< of the cells that are not held out */
 };
 
 /** \brief What every fit of a reconstruction needs. */
@@ -36,6 +36,7 @@ struct ReconstructionInput {
   const SensorNoise& noise;
   const ReconstructionOptions& options;
   const std::vector<bool>& held_out; /**< per cell */
+  double least_sigma;                /**< no noise is smaller, metres */
 
   Eigen::Vector3d
   position(std::int32_t cell) const

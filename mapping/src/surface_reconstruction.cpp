@@ -3,112 +3,20 @@
 
 #include <pcl/mapping/surface_reconstruction.h>
 
-#include "mask_operations.h"
-#include "patch_trimming.h"
-#include "segment_fitting.h"
+#include "segment_patches.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
+#include <exception>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
 namespace pcl {
 namespace nurbs {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double
-secondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/** All patches of one segment, in the order they were found. */
-struct SegmentPatches {
-  std::vector<SurfacePatch> patches;
-  std::vector<CellSet> cells;
-  std::vector<std::vector<float>> distances;
-  double fit_seconds = 0.0;
-  double trim_seconds = 0.0;
-};
-
-/** Turns one segment after the other into patches. */
-class SegmentReconstructor {
-public:
-  explicit SegmentReconstructor(const ReconstructionInput& input) : input_(input) {}
-
-  SegmentPatches
-  run(CellSet segment)
-  {
-    struct Task {
-      CellSet cells;
-      int depth;
-    };
-    std::vector<Task> tasks;
-    tasks.push_back({std::move(segment), 0});
-    while (!tasks.empty()) {
-      const Task task = std::move(tasks.back());
-      tasks.pop_back();
-      CellSet rest = task.cells;
-      if (addPatch(task.cells, rest) && task.depth < kMostDepth)
-        for (CellSet& part : connectedParts(input_.points.geometry, rest, waiting_))
-          tasks.push_back({std::move(part), task.depth + 1});
-    }
-    return std::move(result_);
-  }
-
-private:
-  static constexpr int kMostDepth = 6;
-
-  /** Fit, trim and keep a patch; \a rest is left with the cells it does not explain. A
-   * segment that is more than one smooth surface is cut in two instead. */
-  bool
-  addPatch(const CellSet& cells, CellSet& rest)
-  {
-    if (static_cast<int>(cells.size()) < input_.options.min_patch_points)
-      return false;
-    const Clock::time_point start = Clock::now();
-    FittedSurface surface;
-    const bool fitted = fitCells(input_, cells, surface);
-    result_.fit_seconds += secondsSince(start);
-    if (!fitted)
-      return false;
-    const Clock::time_point trim_start = Clock::now();
-    TrimmedPart part;
-    const bool kept = trimToInliers(input_, surface, part);
-    if (kept)
-      keep(surface, std::move(part), rest);
-    result_.trim_seconds += secondsSince(trim_start);
-    return kept;
-  }
-
-  void
-  keep(const FittedSurface& surface, TrimmedPart part, CellSet& rest)
-  {
-    std::vector<bool> member(surface.cells.size(), false);
-    CellSet cells;
-    std::vector<float> distances;
-    for (std::size_t k : part.members) {
-      member[k] = true;
-      cells.push_back(surface.cells[k]);
-      distances.push_back(
-          static_cast<float>(surface.distances(static_cast<Eigen::Index>(k))));
-    }
-    rest.clear();
-    for (std::size_t k = 0; k < surface.cells.size(); ++k)
-      if (!member[k])
-        rest.push_back(surface.cells[k]);
-    result_.patches.push_back(std::move(part.patch));
-    result_.cells.push_back(std::move(cells));
-    result_.distances.push_back(std::move(distances));
-  }
-
-  const ReconstructionInput& input_;
-  SegmentPatches result_;
-  std::vector<char> waiting_; // cells of a rest that have no part yet
-};
 
 void
 requireValid(const GridPoints& points,
@@ -123,18 +31,14 @@ requireValid(const GridPoints& points,
     throw std::invalid_argument("reconstruction: an option is out of range");
 }
 
-/** Cells of each segment; the first one is label 1. */
-std::vector<CellSet>
+/** Cells of each segment by increasing label; labels may be any numbers. */
+std::map<std::uint32_t, CellSet>
 cellsByLabel(const GridPoints& points, const std::vector<std::uint32_t>& labels)
 {
-  std::vector<CellSet> result;
-  for (std::size_t cell = 0; cell < labels.size(); ++cell) {
-    if (labels[cell] == 0 || !points.valid(cell))
-      continue;
-    if (labels[cell] > result.size())
-      result.resize(labels[cell]);
-    result[labels[cell] - 1].push_back(static_cast<std::int32_t>(cell));
-  }
+  std::map<std::uint32_t, CellSet> result;
+  for (std::size_t cell = 0; cell < labels.size(); ++cell)
+    if (labels[cell] != 0 && points.valid(cell))
+      result[labels[cell]].push_back(static_cast<std::int32_t>(cell));
   return result;
 }
 
@@ -149,11 +53,23 @@ chooseHeldOut(const GridPoints& points, int every)
   return result;
 }
 
+/** Standard deviation that single precision alone gives the coordinates. */
+double
+roundingError(const GridPoints& points)
+{
+  float largest = 0.0F;
+  for (std::size_t cell = 0; cell < points.size(); ++cell)
+    if (points.valid(cell))
+      largest = std::max(largest, points.point(cell).lpNorm<Eigen::Infinity>());
+  return std::numeric_limits<float>::epsilon() * static_cast<double>(largest) /
+         std::sqrt(12.0);
+}
+
 void
-append(SegmentPatches segment, std::uint32_t label, Reconstruction& result)
+append(SegmentPatches segment, Reconstruction& result)
 {
   for (std::size_t k = 0; k < segment.patches.size(); ++k) {
-    segment.patches[k].label = label;
+    segment.patches[k].label = segment.label;
     result.model.patches.push_back(std::move(segment.patches[k]));
     const auto number = static_cast<std::uint32_t>(result.model.patches.size());
     for (std::size_t i = 0; i < segment.cells[k].size(); ++i) {
@@ -165,6 +81,67 @@ append(SegmentPatches segment, std::uint32_t label, Reconstruction& result)
   result.fit_seconds += segment.fit_seconds;
   result.trim_seconds += segment.trim_seconds;
 }
+
+/** Shares segments out to threads and tells how many points are done. */
+class ParallelReconstruction {
+public:
+  explicit ParallelReconstruction(const ReconstructionInput& input) : input_(input) {}
+
+  /** What was thrown for a segment is thrown again once all threads are done: no
+   * exception may leave a parallel region. */
+  std::vector<SegmentPatches>
+  run(std::map<std::uint32_t, CellSet> by_label)
+  {
+    std::vector<SegmentPatches> found(by_label.size());
+    std::vector<CellSet> segments;
+    for (auto& [label, cells] : by_label) {
+      found[segments.size()].label = label;
+      total_ += cells.size();
+      segments.push_back(std::move(cells));
+    }
+#pragma omp parallel for schedule(dynamic, 1) num_threads(input_.options.threads)
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+      try {
+        reconstruct(std::move(segments[k]), found[k]);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        failure_ = std::current_exception();
+      }
+    }
+    if (failure_)
+      std::rethrow_exception(failure_);
+    return found;
+  }
+
+private:
+  void
+  reconstruct(CellSet cells, SegmentPatches& found)
+  {
+    if (failed() || (input_.options.stop && input_.options.stop()))
+      return;
+    const std::size_t size = cells.size();
+    const std::uint32_t label = found.label;
+    found = patchesOfSegment(input_, std::move(cells));
+    found.label = label;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    done_ += size;
+    if (input_.options.progress)
+      input_.options.progress(static_cast<double>(done_) / static_cast<double>(total_));
+  }
+
+  bool
+  failed()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return failure_ != nullptr;
+  }
+
+  const ReconstructionInput& input_;
+  std::size_t total_ = 0;
+  std::size_t done_ = 0;
+  std::exception_ptr failure_;
+  std::mutex mutex_; // for done_, failure_ and the progress call
+};
 
 } // namespace
 
@@ -187,29 +164,13 @@ reconstructSurfaces(const GridPoints& points,
   result.labels.assign(points.size(), 0);
   result.distances.assign(points.size(), std::numeric_limits<float>::quiet_NaN());
   result.held_out = chooseHeldOut(points, options.hold_out_every);
-  const ReconstructionInput input{points, noise, options, result.held_out};
+  const ReconstructionInput input{
+      points, noise, options, result.held_out, roundingError(points)};
 
-  std::vector<CellSet> segments = cellsByLabel(points, labels);
-  std::size_t total = 0;
-  for (const CellSet& segment : segments)
-    total += segment.size();
-  std::vector<SegmentPatches> found(segments.size());
-  std::size_t done = 0;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    const std::size_t size = segments[k].size();
-    if (options.stop && options.stop())
-      continue;
-    found[k] = SegmentReconstructor(input).run(std::move(segments[k]));
-#pragma omp critical(pcl_nurbs_reconstruction_progress)
-    {
-      done += size;
-      if (options.progress)
-        options.progress(static_cast<double>(done) / static_cast<double>(total));
-    }
-  }
-  for (std::size_t k = 0; k < found.size(); ++k)
-    append(std::move(found[k]), static_cast<std::uint32_t>(k + 1), result);
+  std::vector<SegmentPatches> found =
+      ParallelReconstruction(input).run(cellsByLabel(points, labels));
+  for (SegmentPatches& segment : found)
+    append(std::move(segment), result);
   return result;
 }
 

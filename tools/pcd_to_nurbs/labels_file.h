@@ -12,11 +12,13 @@
 
 namespace pcl_nurbs_tools {
 
-/** Write an organized cloud with a label per point as binary PCD, atomically.
+/** Write an organized cloud with a label per point as binary PCD, atomically. \a offset
+ * is added to the points; if there is one, coordinates are doubles.
  * \throws ToolError(kCannotWrite) naming file and reason */
 void
 writeLabels(const std::string& path,
             const pcl::PointCloud<pcl::PointXYZ>& cloud,
+            const Eigen::Vector3d& offset,
             const std::vector<std::uint32_t>& labels);
 
 } // namespace pcl_nurbs_tools

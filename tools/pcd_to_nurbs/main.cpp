@@ -51,6 +51,7 @@ public:
   execute()
   {
     StopWatch total;
+    requireFolders();
     load();
     throwIfInterrupted();
     reconstruct();
@@ -63,6 +64,24 @@ public:
   }
 
 private:
+  /** Work of minutes must not end with a folder that is not there. */
+  void
+  requireFolders() const
+  {
+    std::vector<std::string> paths = settings_.outputs;
+    paths.push_back(settings_.labels);
+    paths.push_back(settings_.common.report);
+    for (const std::string& path : paths) {
+      const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+      std::error_code error;
+      if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+        throw ToolError(
+            kCannotWrite,
+            "cannot write " + path + ": " +
+                (error ? error.message() : folder.string() + " is no folder"));
+    }
+  }
+
   void
   load()
   {
@@ -110,7 +129,10 @@ private:
     throwIfInterrupted();
     if (!found)
       throw ToolError(kNothingProduced,
-                      name() + ": no surface found (try a smaller --min-segment)");
+                      name() +
+                          (countValid() == 0
+                               ? ": no point has finite coordinates"
+                               : ": no surface found (try a smaller --min-segment)"));
     const Eigen::Affine3d back(Eigen::Translation3d{offset_});
     if (!offset_.isZero())
       for (pcl::nurbs::SurfacePatch& patch : model_.patches)
@@ -131,12 +153,13 @@ private:
             path, gridPoints(), reconstructor_.getReconstruction(), settings_.picture);
       else
         writeSurfaces(path, model_, settings_.output);
-      if (extensionOf(path) == ".nurbs")
+      if (extensionOf(path) == ".nurbs" && std::filesystem::is_regular_file(path))
         bytes_ = std::filesystem::file_size(path);
     }
     if (!settings_.labels.empty())
       writeLabels(settings_.labels,
                   *reconstructor_.getOrganizedCloud(),
+                  offset_,
                   reconstructor_.getReconstruction().labels);
     if (bytes_ == 0)
       bytes_ = pcl::nurbs::encodePatches(model_.patches, settings_.output.nurbs).size();

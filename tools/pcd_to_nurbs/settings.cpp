@@ -4,17 +4,15 @@
 #include "settings.h"
 
 #include "run_tool.h"
+#include "settings_checks.h"
 
 #include <boost/program_options.hpp>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <set>
 
 namespace pcl_nurbs_tools {
 namespace {
@@ -201,50 +199,12 @@ interpret(const RawOptions& raw, Settings& settings)
                   &settings.picture.height,
                   &rest) != 2)
     throw ToolError(kUsage, "--size must be WIDTHxHEIGHT");
-}
-
-/** Ranges and combinations that no single option can check. */
-void
-validate(const Settings& settings)
-{
-  const pcl::nurbs::ReconstructionOptions& fit = settings.reconstruction;
-  settings.picture.validate();
-  if (!(settings.output.mesh_tolerance > 0.0) ||
-      !std::isfinite(settings.output.mesh_tolerance))
-    throw ToolError(kUsage, "--mesh-tolerance must be above 0");
-  if (!(fit.tolerance >= 0.0) || !std::isfinite(fit.tolerance))
-    throw ToolError(kUsage, "--tolerance must not be negative");
-  if (fit.knots.max_degree < 1 || fit.knots.max_degree > pcl::nurbs::kMaxDegree)
-    throw ToolError(kUsage, "--max-degree must be 1 to 9");
-  if (fit.knots.max_control_points < 4)
-    throw ToolError(kUsage, "--max-control-points must be at least 4");
-  if (!(fit.knots.points_per_sample >= 0.0) ||
-      !std::isfinite(fit.knots.points_per_sample))
-    throw ToolError(kUsage, "--correlation must not be negative");
-  if (settings.min_segment < 1 || fit.min_patch_points < 4)
-    throw ToolError(kUsage, "--min-segment must be at least 1, --min-patch at least 4");
-  if (fit.hold_out_every < 0 || fit.hold_out_every == 1)
-    throw ToolError(kUsage, "--hold-out must be 0 or at least 2");
-  std::set<std::string> names;
-  std::vector<std::string> all = settings.outputs;
-  for (const std::string* path : {&settings.labels, &settings.common.report})
-    if (!path->empty())
-      all.push_back(*path);
-  for (const std::string& path : all)
-    if (!names.insert(std::filesystem::weakly_canonical(path).string()).second)
-      throw ToolError(kUsage, path + " is named as output twice");
-  if (!settings.input.empty() &&
-      names.count(std::filesystem::weakly_canonical(settings.input).string()) != 0)
-    throw ToolError(kUsage, settings.input + " is both input and output");
-  const std::vector<std::string>& known = surfaceExtensions();
-  for (const std::string& path : settings.outputs)
-    if (extensionOf(path) != ".png" &&
-        std::find(known.begin(), known.end(), extensionOf(path)) == known.end())
-      throw ToolError(kUsage,
-                      path + ": unknown extension; .nurbs .json .obj .ply and .png are "
-                             "known");
-  if (!settings.labels.empty() && extensionOf(settings.labels) != ".pcd")
-    throw ToolError(kUsage, settings.labels + ": --labels writes .pcd files");
+  settings.words = {{"intrinsics", raw.intrinsics},
+                    {"projection", raw.projection},
+                    {"sensor", raw.sensor},
+                    {"criterion", raw.criterion},
+                    {"obj", raw.obj},
+                    {"size", raw.size}};
 }
 
 /** Without outputs the surfaces go to a .nurbs and a .png beside the caller. */
@@ -314,24 +274,10 @@ parseSettings(int argc, char** argv)
   po::notify(values);
   interpret(raw, settings);
   nameOutputs(std::move(files), settings);
-  validate(settings);
+  checkSettings(settings);
   settings.common.threads = resolveThreads(settings.common.threads);
   settings.reconstruction.threads = settings.common.threads;
   return settings;
-}
-
-nlohmann::json
-optionsAsJson(const Settings& settings)
-{
-  const pcl::nurbs::ReconstructionOptions& fit = settings.reconstruction;
-  return {{"threads", settings.common.threads},
-          {"tolerance_sigmas", fit.tolerance_sigmas},
-          {"min_segment", settings.min_segment},
-          {"min_patch", fit.min_patch_points},
-          {"max_degree", fit.knots.max_degree},
-          {"max_control_points", fit.knots.max_control_points},
-          {"hold_out", fit.hold_out_every},
-          {"lossless", settings.output.nurbs.lossless}};
 }
 
 } // namespace pcl_nurbs_tools

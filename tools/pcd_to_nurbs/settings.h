@@ -12,6 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,8 @@ struct Settings {
   pcl::nurbs::ReconstructionOptions reconstruction;
   SurfaceOutputOptions output;
   PictureOptions picture;
+  std::map<std::string, std::string>
+      words; /**< options that are no numbers, as given */
 };
 
 /** Parse the command line.

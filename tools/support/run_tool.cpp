@@ -20,9 +20,10 @@ namespace {
 volatile std::sig_atomic_t signal_received = 0;
 
 extern "C" void
-onSignal(int /*number*/)
+onSignal(int number)
 {
   signal_received = 1;
+  std::signal(number, SIG_DFL); // a second one does not wait
 }
 
 int
@@ -44,7 +45,7 @@ void
 throwIfInterrupted()
 {
   if (interrupted())
-    throw ToolError(kInterrupted, "interrupted; nothing was written");
+    throw ToolError(kInterrupted, "interrupted");
 }
 
 int
@@ -52,6 +53,7 @@ runTool(const std::string& name, const std::function<void()>& command)
 {
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
+  std::signal(SIGXFSZ, SIG_IGN); // a limit of file sizes is an error like a full disk
   // Messages are ours, one line each; libraries have said what they know by exceptions.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   FLAGS_minloglevel = google::GLOG_FATAL;

@@ -64,7 +64,9 @@ writeSurfaces(const std::string& path,
     else if (extension == ".obj")
       pcl::nurbs::writeObjMesh(path, mesh(model, options));
     else
-      throw std::logic_error("no writer for " + extension);
+      throw std::logic_error("unknown extension");
+  } catch (const std::logic_error& error) { // the format cannot hold the surfaces
+    throw ToolError(kCannotWrite, "cannot write " + path + ": " + error.what());
   } catch (const std::runtime_error& error) {
     throw ToolError(kCannotWrite, error.what());
   }

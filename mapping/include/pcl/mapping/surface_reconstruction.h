@@ -36,7 +36,8 @@ struct PCL_NURBS_MAPPING_EXPORT ReconstructionOptions {
   int threads = 1;
   /** Called with the share of points done, 0 to 1, from one thread at a time. */
   std::function<void(double)> progress;
-  /** Asked before each segment; the rest is left out when it says true. */
+  /** Asked before each fit, from several threads at a time; when it says true, the
+   * rest is left out. */
   std::function<bool()> stop;
 
   /** \brief Defaults that suit a depth camera's or laser's cloud. */
@@ -64,8 +65,10 @@ struct Reconstruction {
  * fitted, and the points within tolerance are the patch, whose border in the grid
  * becomes the trimming loops. What is left of the segment is tried again in its
  * connected parts. \param[in] points the cloud \param[in] labels segment of each cell,
- * 0 for none \param[in] noise depth noise of the sensor \param[in] options see there
- * \throws std::invalid_argument if sizes do not match or an option is out of range
+ * 0 for none (any numbers) \param[in] noise depth noise of the sensor, at least the
+ * rounding of single precision is assumed \param[in] options see there
+ * \throws std::invalid_argument if sizes do not match or an option is out of range;
+ * what \a options.progress or \a options.stop throw comes through
  * \ingroup mapping */
 PCL_NURBS_MAPPING_EXPORT Reconstruction
 reconstructSurfaces(const GridPoints& points,

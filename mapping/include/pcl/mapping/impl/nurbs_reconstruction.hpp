@@ -48,7 +48,7 @@ NurbsReconstruction<PointT>::reconstruct(nurbs::SurfaceModel& model)
     const nurbs::GridPoints points = nurbs::toGridPoints(*organized_, used_geometry_);
     result_ =
         nurbs::reconstructSurfaces(points, segment_labels_, used_noise_, options_);
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::logic_error& error) { // std::invalid_argument, std::domain_error
     PCL_ERROR("[pcl::NurbsReconstruction::reconstruct] %s\n", error.what());
     return false;
   }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "segment_patches.h"
+
+#include "mask_operations.h"
+#include "patch_trimming.h"
+
+#include <chrono>
+#include <utility>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double
+secondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/** Turns a segment into patches. */
+class SegmentReconstructor {
+public:
+  explicit SegmentReconstructor(const ReconstructionInput& input) : input_(input) {}
+
+  SegmentPatches
+  run(CellSet segment)
+  {
+    struct Task {
+      CellSet cells;
+      int depth;
+    };
+    std::vector<Task> tasks;
+    tasks.push_back({std::move(segment), 0});
+    while (!tasks.empty() && !(input_.options.stop && input_.options.stop())) {
+      const Task task = std::move(tasks.back());
+      tasks.pop_back();
+      CellSet rest = task.cells;
+      if (addPatch(task.cells, rest) && task.depth < kMostDepth)
+        for (CellSet& part : connectedParts(input_.points.geometry, rest, waiting_))
+          tasks.push_back({std::move(part), task.depth + 1});
+    }
+    return std::move(result_);
+  }
+
+private:
+  static constexpr int kMostDepth = 6;
+
+  /** Fit, trim and keep a patch; \a rest is left with the cells it does not explain. */
+  bool
+  addPatch(const CellSet& cells, CellSet& rest)
+  {
+    if (static_cast<int>(cells.size()) < input_.options.min_patch_points)
+      return false;
+    const Clock::time_point start = Clock::now();
+    FittedSurface surface;
+    const bool fitted = fitCells(input_, cells, surface);
+    result_.fit_seconds += secondsSince(start);
+    if (!fitted)
+      return false;
+    const Clock::time_point trim_start = Clock::now();
+    TrimmedPart part;
+    const bool kept = trimToInliers(input_, surface, part);
+    if (kept)
+      keep(surface, std::move(part), rest);
+    result_.trim_seconds += secondsSince(trim_start);
+    return kept;
+  }
+
+  void
+  keep(const FittedSurface& surface, TrimmedPart part, CellSet& rest)
+  {
+    std::vector<bool> member(surface.cells.size(), false);
+    CellSet cells;
+    std::vector<float> distances;
+    for (std::size_t k : part.members) {
+      member[k] = true;
+      cells.push_back(surface.cells[k]);
+      distances.push_back(
+          static_cast<float>(surface.distances(static_cast<Eigen::Index>(k))));
+    }
+    rest.clear();
+    for (std::size_t k = 0; k < surface.cells.size(); ++k)
+      if (!member[k])
+        rest.push_back(surface.cells[k]);
+    result_.patches.push_back(std::move(part.patch));
+    result_.cells.push_back(std::move(cells));
+    result_.distances.push_back(std::move(distances));
+  }
+
+  const ReconstructionInput& input_;
+  SegmentPatches result_;
+  std::vector<char> waiting_; // cells of a rest that have no part yet
+};
+
+} // namespace
+
+SegmentPatches
+patchesOfSegment(const ReconstructionInput& input, CellSet segment)
+{
+  return SegmentReconstructor(input).run(std::move(segment));
+}
+
+} // namespace nurbs
+} // namespace pcl

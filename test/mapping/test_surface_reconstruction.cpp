@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+//
+// From labelled cells to patches: exact shapes, what is held out, threads, bad input.
+
+#include <pcl/mapping/reconstruction_statistics.h>
+#include <pcl/mapping/surface_reconstruction.h>
+
+#include "grid_clouds.h"
+#include "reconstruction_checks.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace {
+
+using namespace pcl;
+using namespace pcl::nurbs;
+using namespace pcl::nurbs::test;
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+
+GridGeometry
+camera()
+{
+  return GridGeometry::pinhole(kWidth, kHeight, {130.0, 130.0, 79.5, 59.5});
+}
+
+SensorNoise
+constantNoise(double sigma)
+{
+  SensorNoise noise;
+  noise.constant = sigma;
+  return noise;
+}
+
+/** A camera's view of a depth function with Gaussian noise along z. */
+template <typename Depth>
+GridPoints
+noisyView(const Depth& depth, double sigma)
+{
+  std::mt19937 random(3);
+  std::normal_distribution<double> error(0.0, sigma);
+  const GridGeometry geometry = camera();
+  return toGridPoints(cameraCloud(geometry,
+                                  [&](int column, int row) {
+                                    return depth(column, row) +
+                                           (sigma > 0.0 ? error(random) : 0.0);
+                                  }),
+                      geometry);
+}
+
+/** A tilted plane: linear in inverse depth. */
+double
+tilted(int column, int row)
+{
+  return 1.0 / (0.4 + 0.0004 * column + 0.0003 * row);
+}
+
+double
+wavy(int column, int row)
+{
+  return 2.0 + 0.1 * std::sin(0.05 * column) * std::cos(0.04 * row);
+}
+
+std::vector<std::uint32_t>
+oneSegment(const GridPoints& points, std::uint32_t label = 1)
+{
+  return std::vector<std::uint32_t>(points.size(), label);
+}
+
+double
+coverage(const Reconstruction& reconstruction)
+{
+  return static_cast<double>(summarize(reconstruction).covered_points) /
+         static_cast<double>(reconstruction.labels.size());
+}
+
+TEST(SurfaceReconstruction, planeIsOneBilinearPatch)
+{
+  const GridPoints points = noisyView(tilted, 0.002);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002));
+  ASSERT_EQ(result.model.patches.size(), 1U);
+  const SurfacePatch& patch = result.model.patches.front();
+  EXPECT_EQ(patch.geometry.surface().numControlPoints(), 4);
+  EXPECT_GT(coverage(result), 0.99);
+  EXPECT_NEAR(patch.quality.noise, 0.002, 1e-9);
+  // 16 000 points average the noise out: the control net lies on the true plane.
+  const Eigen::Matrix3Xd net =
+      patch.geometry.surface().homogeneousPoints().colwise().hnormalized();
+  const Eigen::Vector3d normal = Eigen::Vector3d(
+      0.0004 * 130.0, 0.0003 * 130.0, 0.4 + 0.0004 * 79.5 + 0.0003 * 59.5);
+  for (Eigen::Index k = 0; k < net.cols(); ++k)
+    EXPECT_NEAR((normal.dot(net.col(k)) - 1.0) / normal.norm(), 0.0, 2e-4);
+}
+
+TEST(SurfaceReconstruction, exactPointsNeedNoNoise)
+{
+  const GridPoints points = noisyView(wavy, 0.0);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.0));
+  EXPECT_FALSE(result.model.patches.empty());
+  ReconstructionOptions options;
+  options.tolerance = 1e-3;
+  const Reconstruction tolerant =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.0), options);
+  EXPECT_GT(coverage(tolerant), 0.99);
+}
+
+TEST(SurfaceReconstruction, everyPatchHoldsItsOwnPoints)
+{
+  const GridPoints points = noisyView(wavy, 0.002);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002));
+  EXPECT_GT(coverage(result), 0.98);
+  const OwnPoints own = checkOwnPoints(points, result, 3);
+  EXPECT_GE(own.inside, 0.99);
+  EXPECT_LE(own.largest_disagreement, 1e-6);
+}
+
+TEST(SurfaceReconstruction, twoWallsInOneSegmentBecomeTwoPatches)
+{
+  const auto corner = [](int column, int row) {
+    return column < kWidth / 2 ? tilted(column, row)
+                               : 1.0 + tilted(kWidth - column, row);
+  };
+  const GridPoints points = noisyView(corner, 0.002);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002));
+  EXPECT_GE(result.model.patches.size(), 2U);
+  EXPECT_GT(coverage(result), 0.9);
+  for (const SurfacePatch& patch : result.model.patches) {
+    EXPECT_LE(patch.quality.rmse, 0.003);
+    EXPECT_LE(patch.quality.max, 3.0 * 0.002 + 1e-9);
+  }
+}
+
+/** Nothing of the surface may reach far into the hole of the mask. */
+TEST(SurfaceReconstruction, holesStayHoles)
+{
+  const auto window = [](int column, int row) {
+    const bool hole = column > 50 && column < 100 && row > 40 && row < 80;
+    return hole ? std::numeric_limits<double>::quiet_NaN() : tilted(column, row);
+  };
+  const GridPoints points = noisyView(window, 0.002);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002));
+  ASSERT_EQ(result.model.patches.size(), 1U);
+  const TrimmedSurface& geometry = result.model.patches.front().geometry;
+  for (int row = 42; row < 79; ++row)
+    for (int column = 52; column < 99; ++column)
+      ASSERT_FALSE(geometry.contains(column, row)) << column << ' ' << row;
+  EXPECT_TRUE(geometry.contains(25.0, 60.0));
+}
+
+/** A round room seen by a laser that turns all around. */
+TEST(SurfaceReconstruction, closedScanHoldsItsOwnPoints)
+{
+  const GridGeometry laser = turningLaser(512, 32);
+  const auto points = toGridPoints(laserCloud(laser,
+                                              [&](int column, int row) {
+                                                const Eigen::Vector3d ray =
+                                                    laser.direction(column, row);
+                                                return 5.0 / ray.head<2>().norm();
+                                              }),
+                                   laser);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.01));
+  EXPECT_GT(coverage(result), 0.9);
+  EXPECT_GE(checkOwnPoints(points, result, 3).inside, 0.98);
+}
+
+TEST(SurfaceReconstruction, heldOutPointsAreOnlyMeasured)
+{
+  const GridPoints points = noisyView(wavy, 0.002);
+  const Reconstruction before =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002));
+  GridPoints moved = points;
+  std::size_t held_out = 0;
+  for (std::size_t cell = 0; cell < points.size(); ++cell)
+    if (before.held_out[cell]) {
+      const float scale = ++held_out % 2 == 0 ? 1.01F : 0.97F;
+      for (std::vector<float>* value : {&moved.x, &moved.y, &moved.z, &moved.depth})
+        (*value)[cell] *= scale;
+    }
+  EXPECT_EQ(held_out, points.size() / 7);
+  const Reconstruction after =
+      reconstructSurfaces(moved, oneSegment(moved), constantNoise(0.002));
+  EXPECT_EQ(before.held_out, after.held_out);
+  ASSERT_FALSE(before.model.patches.empty());
+  ASSERT_FALSE(after.model.patches.empty());
+  expectSameSurface(before.model.patches.front(), after.model.patches.front());
+}
+
+TEST(SurfaceReconstruction, heldOutErrorIsTheNoise)
+{
+  const GridPoints points = noisyView(tilted, 0.002);
+  ReconstructionOptions options;
+  options.tolerance = 0.1; // so that no point is judged away
+  const ReconstructionStatistics statistics = summarize(
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002), options));
+  EXPECT_EQ(statistics.measured_points, points.size() / 7);
+  // Noise along z, distances along the normal, 0.4 / |(0.052, 0.039, 0.45)| of it.
+  EXPECT_NEAR(statistics.rmse, 0.002 * 0.989, 0.00008);
+  EXPECT_NEAR(statistics.p95, 1.96 * statistics.rmse, 0.0002);
+  EXPECT_NEAR(statistics.mean, std::sqrt(2.0 / M_PI) * statistics.rmse, 0.0001);
+}
+
+TEST(SurfaceReconstruction, threadsDoNotChangeABit)
+{
+  const GridPoints points = noisyView(wavy, 0.002);
+  std::vector<std::uint32_t> labels(points.size());
+  for (std::size_t cell = 0; cell < labels.size(); ++cell)
+    labels[cell] = 1 + static_cast<std::uint32_t>(cell % kWidth / 23);
+  ReconstructionOptions options;
+  const Reconstruction one =
+      reconstructSurfaces(points, labels, constantNoise(0.002), options);
+  EXPECT_EQ(one.model.patches.size(), 7U);
+  for (const int threads : {2, 4}) {
+    options.threads = threads;
+    SCOPED_TRACE(threads);
+    expectIdentical(one,
+                    reconstructSurfaces(points, labels, constantNoise(0.002), options));
+  }
+}
+
+TEST(SurfaceReconstruction, labelsMayBeAnyNumbers)
+{
+  const GridPoints points = noisyView(tilted, 0.002);
+  const std::uint32_t label = std::numeric_limits<std::uint32_t>::max();
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points, label), constantNoise(0.002));
+  ASSERT_EQ(result.model.patches.size(), 1U);
+  EXPECT_EQ(result.model.patches.front().label, label);
+}
+
+TEST(SurfaceReconstruction, nothingLabelledIsNothing)
+{
+  const GridPoints points = noisyView(tilted, 0.002);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points, 0), constantNoise(0.002));
+  EXPECT_TRUE(result.model.patches.empty());
+  EXPECT_EQ(summarize(result).measured_points, 0U);
+  EXPECT_EQ(summarize(result).rmse, 0.0);
+}
+
+TEST(SurfaceReconstruction, wrongArgumentsThrow)
+{
+  const GridPoints points = noisyView(tilted, 0.002);
+  const SensorNoise noise = constantNoise(0.002);
+  const auto labels = oneSegment(points);
+  const auto expectThrow = [&](const auto& change) {
+    ReconstructionOptions options;
+    options.threads = 2;
+    change(options);
+    EXPECT_THROW(reconstructSurfaces(points, labels, noise, options),
+                 std::invalid_argument);
+  };
+  using Options = ReconstructionOptions;
+  expectThrow([](Options& o) { o.threads = 0; });
+  expectThrow([](Options& o) { o.min_patch_points = 3; });
+  expectThrow([](Options& o) { o.hold_out_every = 1; });
+  expectThrow([](Options& o) { o.hold_out_every = -1; });
+  expectThrow([](Options& o) { o.tolerance_sigmas = 0.0; });
+  expectThrow([](Options& o) { o.tolerance = std::nan(""); });
+  // Found by the fitter, on a worker thread.
+  expectThrow([](Options& o) { o.knots.max_degree = 12; });
+  expectThrow([](Options& o) { o.fit.loss_scale = -1.0; });
+  EXPECT_THROW(reconstructSurfaces(points, {1, 2, 3}, noise), std::invalid_argument);
+}
+
+TEST(SurfaceReconstruction, exceptionsOfCallbacksComeThrough)
+{
+  const GridPoints points = noisyView(tilted, 0.002);
+  ReconstructionOptions options;
+  options.threads = 2;
+  options.progress = [](double) { throw std::runtime_error("enough"); };
+  EXPECT_THROW(
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002), options),
+      std::runtime_error);
+}
+
+TEST(SurfaceReconstruction, progressEndsAtOneAndStopStops)
+{
+  const GridPoints points = noisyView(tilted, 0.002);
+  std::vector<std::uint32_t> labels = oneSegment(points);
+  std::fill(labels.begin() + kWidth * kHeight / 2, labels.end(), 2U);
+  ReconstructionOptions options;
+  std::vector<double> shares;
+  options.progress = [&](double share) { shares.push_back(share); };
+  reconstructSurfaces(points, labels, constantNoise(0.002), options);
+  ASSERT_EQ(shares.size(), 2U);
+  EXPECT_DOUBLE_EQ(shares[0], 0.5);
+  EXPECT_DOUBLE_EQ(shares[1], 1.0);
+  options.stop = [&] { return shares.size() > 2; };
+  const Reconstruction half =
+      reconstructSurfaces(points, labels, constantNoise(0.002), options);
+  EXPECT_EQ(half.model.patches.size(), 1U);
+}
+
+TEST(SurfaceReconstruction, nearestDistancesAreThoseOfTheNearestPoint)
+{
+  const GridPoints points = noisyView(tilted, 0.002);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002));
+  std::vector<Eigen::Vector3d> queries;
+  for (std::size_t cell = 0; cell < points.size(); cell += 97)
+    queries.push_back(points.point(cell).cast<double>());
+  queries.emplace_back(100.0, 0.0, 0.0);
+  const std::vector<double> values = nearestDistances(points, result, queries, 0.01);
+  ASSERT_EQ(values.size(), queries.size());
+  for (std::size_t k = 0; k + 1 < queries.size(); ++k)
+    if (result.labels[97 * k] != 0) {
+      EXPECT_EQ(values[k], result.distances[97 * k]);
+    }
+  EXPECT_TRUE(std::isnan(values.back()));
+}
+
+} // namespace
