@@ -61,14 +61,19 @@ spreadOf(NoiseBin& bin, std::size_t direction, const Share& share)
 }
 
 /** What the deviations along columns have in excess of those along rows, at least,
- * in any bin. Rings of a laser are aligned to each other to so much only; farther away,
- * where rings lie apart and graze the ground, errors of their angle and the roughness
- * of the scene add to it. */
+ * in any bin that holds many. Rings of a laser are aligned to each other to so much
+ * only; farther away, where rings lie apart and graze the ground, errors of their angle
+ * and the roughness of the scene add to it. */
 double
 excessAlongColumns(std::vector<NoiseBin>& bins, const Share& share)
 {
+  std::size_t samples = 0;
+  for (const NoiseBin& bin : bins)
+    samples += bin.deviations[1].size();
   std::optional<double> least;
   for (NoiseBin& bin : bins) {
+    if (20 * bin.deviations[1].size() < samples)
+      continue; // too few to be relied on alone
     const std::optional<double> row = spreadOf(bin, 0, share);
     const std::optional<double> column = spreadOf(bin, 1, share);
     if (!row || !column)
@@ -145,7 +150,7 @@ SensorNoise::estimate(const GridPoints& points)
   const double typical = std::abs(quantile(depths, 0.5));
   const auto [nearest, farthest] = std::minmax_element(depths.begin(), depths.end());
   std::vector<NoiseBin> bins = nurbs::sampleNoise(points, *nearest, *farthest);
-  const bool scattered = points.geometry.max_gap > 1;
+  const bool scattered = points.geometry.max_gap > 1 && points.geometry.row_v.empty();
   return fitBins(bins, scattered ? kQuarter : kHalf, 0.001 * typical);
 }
 
