@@ -3,8 +3,8 @@
 //
 // Which model criterion generalises on a real depth image? Windows of the image are
 // fitted in inverse depth without every fourth 8 x 8-pixel block, and measured on those
-// blocks: whole blocks, because the noise of neighbouring pixels is correlated and would
-// leak. Usage: criterion_study CLOUD.pcd [fx fy cx cy]
+// blocks: whole blocks, because the noise of neighbouring pixels is correlated and
+// would leak. Usage: criterion_study CLOUD.pcd [fx fy cx cy]
 
 #include <pcl/surface/nurbs/surface_fitter.h>
 
@@ -81,7 +81,31 @@ struct Sums {
   double squares = 0.0;
   double points = 0.0;
   double coefficients = 0.0;
+  int failed = 0; /**< surfaces that run behind the camera in a held-out block */
 };
+
+/** Search, fit and measure one window in units of its noise. */
+void
+addWindow(const Split& window,
+          const HeightFieldFrame& frame,
+          const KnotSearchOptions& search,
+          Sums& sums)
+{
+  FitReport report;
+  const auto knots = chooseHeightFieldKnots(frame, window.fitted, search, report);
+  SurfaceFitOptions options;
+  options.distance = FitDistance::Parametric;
+  const SurfaceFit fit =
+      fitHeightField(frame, knots.first, knots.second, window.fitted, options);
+  Eigen::Matrix2Xd uv(2, window.held.positions.cols());
+  for (Eigen::Index k = 0; k < uv.cols(); ++k)
+    uv.col(k) = frame.toLocal(window.held.positions.col(k)).head<2>();
+  const Eigen::VectorXd distance =
+      orthogonalDistances(fit.surface, window.held.positions, uv);
+  sums.squares += distance.cwiseQuotient(window.held.sigma).squaredNorm();
+  sums.points += static_cast<double>(distance.size());
+  sums.coefficients += fit.surface.numControlPoints();
+}
 
 void
 study(const std::vector<Split>& windows,
@@ -94,27 +118,18 @@ study(const std::vector<Split>& windows,
     search.criterion = criterion;
     search.points_per_sample = points_per_sample;
     Sums sums;
-    for (const Split& window : windows) {
-      FitReport report;
-      const auto knots = chooseHeightFieldKnots(frame, window.fitted, search, report);
-      SurfaceFitOptions options;
-      options.distance = FitDistance::Parametric;
-      const SurfaceFit fit =
-          fitHeightField(frame, knots.first, knots.second, window.fitted, options);
-      Eigen::Matrix2Xd uv(2, window.held.positions.cols());
-      for (Eigen::Index k = 0; k < uv.cols(); ++k)
-        uv.col(k) = frame.toLocal(window.held.positions.col(k)).head<2>();
-      const Eigen::VectorXd distance =
-          orthogonalDistances(fit.surface, window.held.positions, uv);
-      sums.squares += distance.cwiseQuotient(window.held.sigma).squaredNorm();
-      sums.points += static_cast<double>(distance.size());
-      sums.coefficients += fit.surface.numControlPoints();
-    }
-    std::printf("| %s | %g | %.4f | %.1f |\n",
+    for (const Split& window : windows)
+      try {
+        addWindow(window, frame, search, sums);
+      } catch (const std::domain_error&) {
+        ++sums.failed;
+      }
+    std::printf("| %s | %g | %.4f | %.1f | %d |\n",
                 name,
                 points_per_sample,
                 std::sqrt(sums.squares / sums.points),
-                sums.coefficients / static_cast<double>(windows.size()));
+                sums.coefficients / static_cast<double>(windows.size() - sums.failed),
+                sums.failed);
   }
 }
 
@@ -142,7 +157,7 @@ main(int argc, char** argv)
         windows.push_back(std::move(split));
     }
   std::printf("%zu windows\n| criterion | points per sample | held-out RMS / sigma | "
-              "control points |\n| --- | --- | --- | --- |\n",
+              "control points | failed |\n| --- | --- | --- | --- | --- |\n",
               windows.size());
   study(windows, frame, ModelCriterion::AIC, "AIC");
   study(windows, frame, ModelCriterion::AICc, "AICc");

@@ -251,7 +251,7 @@ OrthogonalProblem::reduce(const Eigen::MatrixXd& unknowns,
       }
     addFairnessAround(points,
                       {options_.fairness * information_, 0.0},
-                      unknowns,
+                      unknowns - start_,
                       derivatives,
                       equations);
   }

@@ -126,7 +126,10 @@ private:
  * and Fukushima 2001 does), so that exact points are found at a fast rate although many
  * surfaces solve the problem. There
  * the foot may also leave the domain, where the surface is extrapolated, so that the
- * problem stays smooth at the border; extendedDomain() then takes these feet in. */
+ * problem stays smooth at the border; extendedDomain() then takes these feet in.
+ *
+ * Fairness is that of the way from the start: with free sliding the energy of the
+ * surface itself would pull even exact surfaces off their points. */
 class OrthogonalProblem : public CellLinearizer {
 public:
   /** \param[in] unknowns meaning of the unknowns
@@ -202,8 +205,9 @@ private:
   const SurfaceFitOptions& options_;
   double damping_ = 1.0;
   double information_ =
-      0.0;        // of all points on the unknowns, what fairness is relative to
-  double extent_; // diagonal of the points' box, metres
+      0.0;                // of all points on the unknowns, what fairness is relative to
+  Eigen::MatrixXd start_; // unknowns of the first evaluation
+  double extent_;         // diagonal of the points' box, metres
 };
 
 /** \brief The same surface over a domain that holds all parameters: the border spans
