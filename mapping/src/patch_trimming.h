@@ -25,7 +25,8 @@ struct TrimmedPart {
  * \param[in] input the cloud
  * \param[in] surface a fit
  * \param[out] part patch and members
- * \return false if less than min_patch_points are left */
+ * \return false if less than min_patch_points are left or the surface merely cuts
+ * across them */
 bool
 trimToInliers(const ReconstructionInput& input,
               const FittedSurface& surface,

@@ -39,15 +39,19 @@ public:
       const Task task = std::move(tasks.back());
       tasks.pop_back();
       CellSet rest = task.cells;
-      if (addPatch(task.cells, rest) && task.depth < kMostDepth)
-        for (CellSet& part : connectedParts(input_.points.geometry, rest, waiting_))
-          tasks.push_back({std::move(part), task.depth + 1});
+      const bool added = addPatch(task.cells, rest);
+      const int depth = task.depth + (added ? 1 : kDepthOfHalves);
+      if (depth > kMostDepth || rest.empty())
+        continue;
+      for (CellSet& part : added ? connectedParts(input_.points.geometry, rest, waiting_) : halves(rest))
+        tasks.push_back({std::move(part), depth});
     }
     return std::move(result_);
   }
 
 private:
   static constexpr int kMostDepth = 6;
+  static constexpr int kDepthOfHalves = 2; // a third of the attempts: most are in vain
 
   /** Fit, trim and keep a patch; \a rest is left with the cells it does not explain. */
   bool
@@ -89,6 +93,36 @@ private:
     result_.patches.push_back(std::move(part.patch));
     result_.cells.push_back(std::move(cells));
     result_.distances.push_back(std::move(distances));
+  }
+
+  /** Cells left and right of the middle, or above and below it if that side is longer:
+   * what no frame can hold as a whole, such as a room around a laser, may be surfaces
+   * in parts. None if the halves would be too small. */
+  std::vector<CellSet>
+  halves(const CellSet& cells) const
+  {
+    if (static_cast<int>(cells.size()) < 2 * input_.options.min_patch_points)
+      return {};
+    const int width = input_.points.geometry.width;
+    int low = width;
+    int high = 0;
+    for (std::int32_t cell : cells) {
+      low = std::min(low, cell % width);
+      high = std::max(high, cell % width);
+    }
+    const bool by_column = high - low >= cells.back() / width - cells.front() / width;
+    const auto place = [=](std::int32_t cell) {
+      return by_column ? cell % width : cell / width;
+    };
+    std::vector<int> places;
+    for (std::int32_t cell : cells)
+      places.push_back(place(cell));
+    const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+    std::nth_element(places.begin(), middle, places.end());
+    std::vector<CellSet> result(2);
+    for (std::int32_t cell : cells)
+      result[place(cell) < *middle ? 0 : 1].push_back(cell);
+    return result;
   }
 
   const ReconstructionInput& input_;

@@ -25,9 +25,13 @@ requireValid(const GridPoints& points,
 {
   if (labels.size() != points.size())
     throw std::invalid_argument("reconstruction: one label per cell is needed");
+  const KnotSearchOptions& knots = options.knots;
   if (!(options.tolerance_sigmas > 0.0) || !(options.tolerance >= 0.0) ||
       options.min_patch_points < 4 || options.threads < 1 ||
-      options.hold_out_every < 0 || options.hold_out_every == 1)
+      options.hold_out_every < 0 || options.hold_out_every == 1 ||
+      knots.max_degree < 1 || knots.max_degree > kMaxDegree ||
+      knots.max_control_points < 4 ||
+      !(knots.points_per_sample == 0.0 || knots.points_per_sample >= 1.0))
     throw std::invalid_argument("reconstruction: an option is out of range");
 }
 
@@ -53,16 +57,17 @@ chooseHeldOut(const GridPoints& points, int every)
   return result;
 }
 
-/** Standard deviation that single precision alone gives the coordinates. */
+/** Noise that even exact points are granted: what a surface of a moderate number of
+ * control points can follow. */
 double
-roundingError(const GridPoints& points)
+leastNoise(const GridPoints& points)
 {
+  constexpr double kShare = 1e-5;
   float largest = 0.0F;
   for (std::size_t cell = 0; cell < points.size(); ++cell)
     if (points.valid(cell))
       largest = std::max(largest, points.point(cell).lpNorm<Eigen::Infinity>());
-  return std::numeric_limits<float>::epsilon() * static_cast<double>(largest) /
-         std::sqrt(12.0);
+  return kShare * static_cast<double>(largest);
 }
 
 void
@@ -165,7 +170,7 @@ reconstructSurfaces(const GridPoints& points,
   result.distances.assign(points.size(), std::numeric_limits<float>::quiet_NaN());
   result.held_out = chooseHeldOut(points, options.hold_out_every);
   const ReconstructionInput input{
-      points, noise, options, result.held_out, roundingError(points)};
+      points, noise, options, result.held_out, leastNoise(points)};
 
   std::vector<SegmentPatches> found =
       ParallelReconstruction(input).run(cellsByLabel(points, labels));

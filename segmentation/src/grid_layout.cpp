@@ -60,7 +60,8 @@ refineRaster(GridGeometry grid, const ChartList& charts, const Rings& rings)
   double step = rings ? rings.azimuth_step : stepForDensity(charts, u, v, 0.8);
   const double most_cells = std::max(kMostCellsPerPoint * static_cast<double>(points),
                                      static_cast<double>(kLeastCells));
-  const bool single = !(std::max(u.length(), v.length()) > 0.0); // no use refining
+  // No use refining one column, or one cell: rows of rings do not get more.
+  const bool single = !(std::max(u.length(), rings ? 0.0 : v.length()) > 0.0);
   const auto count_cells = [&] {
     setRaster(grid, u, v, step);
     return static_cast<double>(grid.width) * grid.height;

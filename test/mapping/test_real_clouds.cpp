@@ -9,6 +9,7 @@
 #include <pcl/segmentation/cloud_organizer.h>
 #include <pcl/segmentation/grid_segmentation.h>
 
+#include "data_files.h"
 #include "test_data.h"
 
 #include <pcl/io/pcd_io.h>
@@ -21,21 +22,7 @@ namespace {
 
 using namespace pcl;
 using namespace pcl::nurbs;
-
-/** Files below a data folder with an extension, at most so many. */
-std::vector<std::filesystem::path>
-filesIn(const std::filesystem::path& folder,
-        const std::string& extension,
-        std::size_t most)
-{
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.path().extension() == extension)
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  files.resize(std::min(files.size(), most));
-  return files;
-}
+using pcl::nurbs::test::filesIn;
 
 struct Source {
   const char* folder;

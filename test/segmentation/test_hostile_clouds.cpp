@@ -63,6 +63,17 @@ lineOf(float x, float y, float z)
   return cloud;
 }
 
+/** Straight ahead of a laser nothing tells the points' azimuths apart. */
+Cloud
+lineAhead()
+{
+  Cloud cloud;
+  for (int i = 0; i < 5000; ++i)
+    cloud.emplace_back(
+        0.001F * std::floor(1000.0F * static_cast<float>(i) / 7.0F), 0.0F, 1.0F);
+  return cloud;
+}
+
 Cloud
 withOutlier()
 {
@@ -85,6 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Clouds,
                                          lineOf(1.0F, 0.0F, 0.0F),
                                          lineOf(0.0F, 0.0F, -1.0F),
                                          lineOf(0.3F, 0.2F, 0.1F),
+                                         lineAhead(),
                                          withOutlier()));
 
 TEST(OrganizedInput, hostileGridsAreLattices)

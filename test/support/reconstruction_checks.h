@@ -59,8 +59,8 @@ cellsOfPatches(const Reconstruction& reconstruction)
 
 /** How the patches hold their own points, found by global search. */
 struct OwnPoints {
-  double inside = 0.0;             /**< share whose foot point the trims contain */
-  double largest_disagreement = 0; /**< of reported and found distance, metres */
+  double inside = 0.0;   /**< share whose foot point the trims contain */
+  double agreeing = 0.0; /**< share whose reported distance is the least one */
 };
 
 /** \param[in] every look at every so-manieth point of a patch only */
@@ -81,11 +81,11 @@ checkOwnPoints(const GridPoints& points,
       const double reported = std::abs(reconstruction.distances[cell]);
       looked += 1.0;
       result.inside += geometry.contains(foot.u, foot.v) ? 1.0 : 0.0;
-      result.largest_disagreement =
-          std::max(result.largest_disagreement, std::abs(foot.distance - reported));
+      result.agreeing += std::abs(foot.distance - reported) < 1e-4 ? 1.0 : 0.0;
     }
   }
   result.inside /= looked;
+  result.agreeing /= looked;
   return result;
 }
 

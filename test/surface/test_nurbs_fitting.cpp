@@ -279,10 +279,8 @@ TEST(NurbsFitting, HostileCloudsNeverThrow)
       bool done = true;
       EXPECT_NO_THROW(done = fitting.compute(surface));
       EXPECT_EQ(done, fitting.getReport().fitted_points > 0);
-      if (!done)
-        EXPECT_FALSE(fitting.getReport().message.empty());
-      if (parameterization == Parameterization::Plane)
-        EXPECT_EQ(done, expected);
+      EXPECT_TRUE(done || !fitting.getReport().message.empty());
+      EXPECT_TRUE(done == expected || parameterization != Parameterization::Plane);
     }
   };
   tryOut(nullptr, false);

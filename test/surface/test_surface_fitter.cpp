@@ -45,12 +45,12 @@ TEST(SurfaceFitter, HeldOutErrorIsTheNoise)
   // Orthogonal distances are shorter than heights by the cosine of the slope.
   EXPECT_NEAR(fit.report.held_out_rmse, 0.002 * 0.88, 0.0002);
   EXPECT_NEAR(fit.report.held_out_p95, 1.96 * 0.002 * 0.88, 0.0004);
-  EXPECT_LT(waveRms(fit.surface), 2e-4);
+  EXPECT_LT(waveRms(fit.surface), 2.5e-4);
 }
 
 TEST(SurfaceFitter, RobustLossesIgnoreOutliers)
 {
-  const KnotVector knots = KnotVector::clampedUniform(3, 4, -1, 1);
+  const KnotVector knots = KnotVector::clampedUniform(3, 6, -1, 1);
   FitPoints points = scattered(wave, 20000, 4);
   addNoise(points, 0.002, 5);
   addOutliers(points);
@@ -156,10 +156,11 @@ TEST(SurfaceFitter, BordersContinueTheirNeighbour)
         const SurfaceJet1 a = first.evaluateJet1(1.0, v);
         const SurfaceJet1 b = second.surface.evaluateJet1(-1.0, v);
         EXPECT_LT((a.position - b.position).norm(), 1e-12);
-        if (continuity == Continuity::G1)
+        if (continuity == Continuity::G1) {
           EXPECT_LT(
               a.du.cross(a.dv).normalized().cross(b.du.cross(b.dv).normalized()).norm(),
               1e-12);
+        }
       }
     }
 }
@@ -207,6 +208,7 @@ TEST(SurfaceFitter, WhatPointsDoNotTellIsReported)
   // Parameters that turn back make a surface that folds over.
   FitPoints folded = scattered(wave, 2000, 12);
   folded.positions.row(0) = folded.positions.row(0).cwiseAbs().eval();
+  folded.positions.row(2).setZero();
   const KnotVector two = KnotVector::clampedUniform(2, 2, -1, 1);
   const SurfaceFit fold =
       fitParametric(two, two, folded, optionsFor(FitDistance::Parametric));

@@ -84,7 +84,7 @@ class ToolTest(unittest.TestCase):
 
     def run_tool(self, *arguments, **options):
         return subprocess.run([BINARY, *map(str, arguments)], cwd=self.folder, text=True,
-                              capture_output=True, check=False, **options)
+                              errors="replace", capture_output=True, check=False, **options)
 
     def succeed(self, *arguments, **options):
         result = self.run_tool(*arguments, **options)

@@ -54,7 +54,8 @@ std::string
 resolved(const std::string& path)
 {
   std::error_code error;
-  const auto canonical = std::filesystem::weakly_canonical(path, error);
+  const auto canonical =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
   return error ? path : canonical.string();
 }
 

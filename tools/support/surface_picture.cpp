@@ -99,6 +99,24 @@ chooseCamera(const pcl::nurbs::GridPoints& points,
                         static_cast<double>(options.width) / options.height);
 }
 
+/** Triangles with an edge limit, which is raised where a patch cannot keep it: outside
+ * of its trims a surface may run far away. */
+pcl::nurbs::TriangleMesh
+coarsestNeeded(const pcl::nurbs::SurfaceModel& model,
+               pcl::nurbs::TessellationOptions& options,
+               double longest)
+{
+  while (true) {
+    try {
+      return pcl::nurbs::tessellate(model, options);
+    } catch (const std::domain_error&) {
+      if (options.max_edge_length > longest)
+        throw;
+      options.max_edge_length *= 2.0;
+    }
+  }
+}
+
 /** Draw with each vertex coloured by the distance of the point next to it. */
 pcl::nurbs::Image
 drawDeviation(const pcl::nurbs::GridPoints& points,
@@ -115,7 +133,7 @@ drawDeviation(const pcl::nurbs::GridPoints& points,
   tessellation.chord_tolerance = size / 4000.0;
   tessellation.max_edge_length = size / kEdgesAcross;
   const pcl::nurbs::TriangleMesh mesh =
-      pcl::nurbs::tessellate(reconstruction.model, tessellation);
+      coarsestNeeded(reconstruction.model, tessellation, size);
   return pcl::nurbs::renderMesh(
       mesh,
       render,

@@ -239,8 +239,13 @@ chooseHeightFieldKnots(const HeightFieldFrame& frame,
 {
   const SplitPoints split(points, SurfaceFitOptions());
   const LocalPoints local = toLocal(frame, split.fitted);
-  return searchBinned(
-      local.parameters, local.heights, local.sigma, options, start, report);
+  return searchBinned(local.parameters,
+                      local.heights,
+                      local.sigma,
+                      points.sigma.size() != 0,
+                      options,
+                      start,
+                      report);
 }
 
 } // namespace nurbs

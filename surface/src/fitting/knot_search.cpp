@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace pcl {
@@ -69,6 +70,18 @@ sampleNoise(const SampleGrid& samples, double stated)
   return shown > 0.0 ? std::max(shown, kTrust * stated) : stated;
 }
 
+/** Residual of a sample of unit weight that rounding and the trace of stiffness leave
+ * behind: whatever is below says nothing. */
+double
+roundingFloor(const SampleGrid& samples)
+{
+  constexpr double kRelative = 1e-9;
+  const double energy =
+      (samples.weights.transpose() * samples.values.cwiseAbs2()).sum() /
+      static_cast<double>(samples.values.size());
+  return std::max(kRelative * std::sqrt(energy), std::numeric_limits<double>::min());
+}
+
 /** Tries models on the samples. */
 class KnotSearch {
 public:
@@ -79,7 +92,8 @@ public:
       : samples_(samples),
         options_(options),
         stated_(noise),
-        noise_(sampleNoise(samples, noise))
+        floor_(roundingFloor(samples)),
+        noise_(std::max(sampleNoise(samples, noise), floor_))
   {
     best_.u.breaks = {samples.low.x(),
                       samples.low.x() + samples.rows * samples.bin_size.x()};
@@ -97,12 +111,8 @@ public:
   KnotSearchResult
   run()
   {
-    findSalient();
-    while (!salient_.empty() && improve(growthMoves()))
-      findSalient();
-    while (improve(shrinkMoves())) {
-    }
-    findSalient();
+    if (best_.coefficients.size() != 0) // else there are too few samples for any model
+      search();
     KnotSearchResult result;
     result.knots_u = best_.u.knots();
     result.knots_v = best_.v.knots();
@@ -113,6 +123,17 @@ public:
   }
 
 private:
+  void
+  search()
+  {
+    findSalient();
+    while (!salient_.empty() && improve(growthMoves()))
+      findSalient();
+    while (improve(shrinkMoves())) {
+    }
+    findSalient();
+  }
+
   /** Fit a model to the samples and set its criterion; infinite if it cannot be fitted.
    */
   void
@@ -134,10 +155,10 @@ private:
     const double values = static_cast<double>(samples_.values.size());
     const double stored = controls * static_cast<double>(samples_.values.cols()) +
                           model.u.innerKnots() + model.v.innerKnots();
-    // Mean weight 1, so that RSS / n is a variance. A sum below rounding is rounding.
-    const double rounding = 1e-24 * samples_.values.squaredNorm();
+    // Mean weight 1, so that RSS / n is a variance.
     const double scale = static_cast<double>(samples_.size()) / samples_.weights.sum();
-    double rss = std::max(residuals(model).squaredNorm() * scale, rounding);
+    const double rounding = floor_ * floor_ * values;
+    double rss = std::max(residuals(model).squaredNorm(), rounding) * scale;
     if (options_.criterion == ModelCriterion::KnownNoise)
       rss /= std::max(stated_ * stated_ * scale, std::numeric_limits<double>::min());
     model.criterion = modelCriterion(options_.criterion, values, rss, stored);
@@ -192,7 +213,6 @@ private:
   findSalient()
   {
     const Eigen::MatrixXd residual = residuals(best_);
-    const double noise = std::max(noise_, std::numeric_limits<double>::min());
     Eigen::MatrixXd scores = Eigen::MatrixXd::Constant(
         samples_.rows, samples_.columns, std::numeric_limits<double>::quiet_NaN());
     for (Eigen::Index k = 0; k < samples_.size(); ++k) {
@@ -201,7 +221,7 @@ private:
       Eigen::Index largest;
       residual.row(k).cwiseAbs().maxCoeff(&largest);
       scores(bin / samples_.columns, bin % samples_.columns) =
-          residual(k, largest) / noise;
+          residual(k, largest) / noise_;
     }
     salient_ = findSalientGroups(scores, options_.significance);
   }
@@ -338,6 +358,7 @@ private:
   const SampleGrid& samples_;
   const KnotSearchOptions& options_;
   double stated_;
+  double floor_;
   double noise_;
   Model best_;
   std::vector<BinGroup> salient_;
@@ -377,10 +398,14 @@ SurfaceKnots
 searchBinned(const Eigen::Matrix2Xd& parameters,
              const Eigen::MatrixXd& values,
              const Eigen::VectorXd& sigma,
+             bool sigma_is_known,
              const KnotSearchOptions& options,
              const SurfaceKnots* start,
              FitReport& report)
 {
+  if (options.criterion == ModelCriterion::KnownNoise && !sigma_is_known)
+    throw std::invalid_argument(
+        "knot search: known noise needs the sigma of the points");
   constexpr double kFewestSamples = 16.0;
   const ParameterBox box = ParameterBox::around(parameters);
   const double count = static_cast<double>(values.rows());
@@ -393,8 +418,8 @@ searchBinned(const Eigen::Matrix2Xd& parameters,
                            values,
                            sigma.array().square().inverse(),
                            static_cast<int>(target));
-  KnotSearchResult result =
-      searchKnots(samples, 1.0, options, start); // weights: 1 / sigma^2
+  const double stated = sigma_is_known ? 1.0 : 0.0; // weights are 1 / sigma^2
+  KnotSearchResult result = searchKnots(samples, stated, options, start);
   report.criterion = result.criterion;
   report.salient = std::move(result.salient);
   return {std::move(result.knots_u), std::move(result.knots_v)};

@@ -30,8 +30,11 @@ varianceAroundQuadric(const Eigen::Matrix3Xd& centred, const Eigen::Matrix3d& ax
   const Eigen::VectorXd heights = local.row(2).transpose();
   const Eigen::VectorXd residual =
       heights - rows * rows.colPivHouseholderQr().solve(heights);
-  return scale * scale * residual.squaredNorm() /
-         static_cast<double>(local.cols() - kQuadricTerms);
+  const double freedom = static_cast<double>(local.cols() - kQuadricTerms);
+  // So that the median of many is not too low (Wilson-Hilferty).
+  const double median_of_chi_squared =
+      freedom * std::pow(1.0 - 2.0 / (9.0 * freedom), 3);
+  return scale * scale * residual.squaredNorm() / median_of_chi_squared;
 }
 
 } // namespace

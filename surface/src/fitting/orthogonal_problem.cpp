@@ -158,9 +158,12 @@ OrthogonalProblem::evaluatePoints(const NurbsSurface& surface,
         projectFrom(surface, point, kSteps, margin, parameters.col(k));
     const Eigen::Vector2d uv = parameters.col(k);
     const Eigen::Matrix3d frame = surfaceFrame(jet); // normal, then two tangents
-    const double distance = frame.col(0).dot(point - jet.position);
-    const double s = distance / sigma_(k);
-    const LossValue loss = evaluateLoss(options_.loss, options_.loss_scale, s * s);
+    const Eigen::Vector3d offset = point - jet.position;
+    const double distance = frame.col(0).dot(offset);
+    // The cost also counts what is left along the surface where a foot is held at the
+    // margin or has not settled: a step must not win by moving feet out of reach.
+    const double s = offset.squaredNorm() / (sigma_(k) * sigma_(k));
+    const LossValue loss = evaluateLoss(options_.loss, options_.loss_scale, s);
     for (int row = 0; row < rows; ++row) {
       const double root = std::sqrt(loss.slope) / sigma_(k);
       const Eigen::Index at = rows * k + row;
@@ -247,7 +250,7 @@ OrthogonalProblem::reduce(const Eigen::MatrixXd& unknowns,
         cell.rhs.setZero(size, 1);
       }
     addFairnessAround(points,
-                      {options_.fairness * static_cast<double>(parameters.cols()), 0.0},
+                      {options_.fairness * information_, 0.0},
                       unknowns,
                       derivatives,
                       equations);
@@ -272,6 +275,9 @@ OrthogonalProblem::linearize(const Eigen::MatrixXd& unknowns,
     Eigen::Matrix2Xd parameters = parameters_;
     PointTerms terms;
     evaluatePoints(surface, parameters, terms);
+    if (information_ ==
+        0.0) // of the start, for good: the cost must not change its mind
+      information_ = terms.factors.squaredNorm();
     reduce(unknowns, parameters, terms, derivatives, cells);
     if (derivatives)
       parameters_ = std::move(parameters);

@@ -201,6 +201,8 @@ private:
   const Eigen::VectorXd& sigma_;
   const SurfaceFitOptions& options_;
   double damping_ = 1.0;
+  double information_ =
+      0.0;        // of all points on the unknowns, what fairness is relative to
   double extent_; // diagonal of the points' box, metres
 };
 

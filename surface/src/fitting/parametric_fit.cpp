@@ -239,6 +239,7 @@ chooseParametricKnots(const FitPoints& points,
   return searchBinned(split.fitted.parameters,
                       split.fitted.positions.transpose(),
                       split.fitted.sigma,
+                      points.sigma.size() != 0,
                       options,
                       nullptr,
                       report);

@@ -59,6 +59,8 @@ NurbsReconstruction<PointT>::reconstruct(nurbs::SurfaceModel& model)
   seconds_.trim = wall - seconds_.fit;
   model = result_.model;
   model.frame_id = input_->header.frame_id;
+  if (model.patches.empty())
+    PCL_ERROR("[pcl::NurbsReconstruction::reconstruct] No segment is a surface.\n");
   return !model.patches.empty();
 }
 
@@ -103,6 +105,8 @@ NurbsReconstruction<PointT>::segment()
   used_noise_ = segmentation->getUsedNoise();
   num_segments_ = segments.size();
   seconds_.segment = watch.lap();
+  if (segments.empty())
+    PCL_ERROR("[pcl::NurbsReconstruction::reconstruct] No segment found.\n");
   return !segments.empty();
 }
 
