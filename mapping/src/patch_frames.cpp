@@ -104,7 +104,7 @@ Slab
 slabOf(const Eigen::Matrix3Xd& positions, double noise)
 {
   constexpr double kSigmas = 4.0;
-  constexpr double kShare = 0.05; // of the standard deviation of the points
+  constexpr double kShare = 0.02; // of the standard deviation of the points
   const Eigen::Vector3d mean = positions.rowwise().mean();
   const double spread = std::sqrt((positions.colwise() - mean).squaredNorm() /
                                   static_cast<double>(positions.cols()));

@@ -179,7 +179,7 @@ sortedRings(const GridGeometry& grid, const ChartList& charts, const Rings& ring
 GridLayout
 fillRings(const GridGeometry& grid, const ChartList& charts, const Rings& rings)
 {
-  constexpr double kMostShift = 2.0;
+  constexpr double kMostShift = 1.5;
   GridLayout layout{grid, {}, 0};
   const auto width = static_cast<std::size_t>(grid.width);
   layout.cell_point.assign(width * static_cast<std::size_t>(grid.height), kEmpty);

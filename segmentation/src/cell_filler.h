@@ -10,7 +10,7 @@ namespace nurbs {
 
 /** Put every point into a cell of its raster: the nearest one keeps the cell, others
  * move to a free cell beside it or are dropped. Rings, when given, are the rows; their
- * points keep their order and are dropped when they had to move by over two cells. */
+ * points keep their order and are dropped when they had to move by over 1.5 cells. */
 GridLayout
 fillCells(const GridGeometry& grid, const ChartList& charts, const Rings& rings);
 

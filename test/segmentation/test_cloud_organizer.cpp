@@ -156,6 +156,35 @@ TEST(ScatteredInput, ringsInStoredOrderComeBack)
   expectFaithful(cloud, output, organizer);
 }
 
+TEST(ScatteredInput, unevenTurnLosesNoReading)
+{
+  // Pairs of pulses close together, as from a laser that turns by fits and starts:
+  // rounded, half of them share cells with the others.
+  const GridGeometry truth = turningLaser(720, 16);
+  Cloud cloud;
+  for (int row = 0; row < 16; ++row)
+    for (int turn = 0; turn < 720; ++turn) {
+      const double column = 359.4 - turn + (turn % 2 == 0 ? -0.4 : 0.4);
+      const Eigen::Vector3f point = (8.0 * truth.direction(column, row)).cast<float>();
+      cloud.emplace_back(point.x(), point.y(), point.z());
+    }
+  CloudOrganizer<PointXYZ> organizer;
+  const Cloud output = organized(organizer, cloud);
+  EXPECT_LE(organizer.getNumDropped(), cloud.size() / 500);
+  expectFaithful(cloud, output, organizer);
+  // Cells of a row follow each other in the order of the azimuths.
+  for (std::uint32_t row = 0; row < output.height; ++row) {
+    double before = -std::numeric_limits<double>::infinity();
+    for (std::uint32_t column = 0; column < output.width; ++column)
+      if (std::isfinite(output(column, row).x)) {
+        const Eigen::Vector3d chart = organizer.getGeometry().chart(
+            output(column, row).getVector3fMap().cast<double>());
+        EXPECT_GT(chart.x(), before);
+        before = chart.x();
+      }
+  }
+}
+
 TEST(ScatteredInput, shuffledRingsAreFoundByTheirAngles)
 {
   const GridGeometry truth = turningLaser(360, 24);
