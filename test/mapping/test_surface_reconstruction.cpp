@@ -53,6 +53,20 @@ TEST(SurfaceReconstruction, exactPointsNeedNoNoise)
   EXPECT_GT(coverage(result), 0.95);
 }
 
+/** What is granted to all must not follow from one point. */
+TEST(SurfaceReconstruction, wildCoordinatesHarmNobodyElse)
+{
+  const auto wild = [](int column, int row) {
+    return column == 3 && row % 7 == 0 ? 3e37 : tilted(column, row);
+  };
+  const GridPoints points = noisyView(wild, 0.002);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002));
+  ASSERT_GE(result.model.patches.size(), 1U);
+  EXPECT_LE(result.model.patches.front().quality.rmse, 0.003);
+  EXPECT_NEAR(result.model.patches.front().quality.noise, 0.002, 1e-9);
+}
+
 TEST(SurfaceReconstruction, everyPatchHoldsItsOwnPoints)
 {
   const GridPoints points = noisyView(wavy, 0.002);
