@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pcl {
 namespace nurbs {
@@ -63,6 +64,32 @@ fitsView(const Eigen::Isometry3d& pose, const Eigen::Matrix3Xd& positions)
   return (along.array() > kSmallestCosine * positions.colwise().norm().array()).all();
 }
 
+/** The camera's view turned so that u runs along a long, slanted segment: knots then
+ * follow it instead of crossing it in a staircase. Nothing for segments that are not.
+ */
+std::optional<HeightFieldFrame>
+viewAlong(const PinholeIntrinsics& camera,
+          const Eigen::Isometry3d& pose,
+          const Eigen::Matrix3Xd& positions)
+{
+  constexpr double kLong = 1.5;     // length over width
+  constexpr double kSlanted = 0.15; // radians off the image's axes
+  const Eigen::Matrix3Xd local = pose.linear().transpose() * positions;
+  const Eigen::Matrix2Xd image = local.colwise().hnormalized();
+  const Eigen::Matrix2Xd centred = image.colwise() - image.rowwise().mean().eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(centred *
+                                                              centred.transpose());
+  const Eigen::Vector2d axis = solver.eigenvectors().col(1);
+  const double smallest = axis.cwiseAbs().minCoeff();
+  if (solver.eigenvalues()(1) < kLong * kLong * solver.eigenvalues()(0) ||
+      smallest < std::sin(kSlanted))
+    return std::nullopt;
+  Eigen::Isometry3d turned = pose;
+  turned.rotate(
+      Eigen::AngleAxisd(std::atan2(axis.y(), axis.x()), Eigen::Vector3d::UnitZ()));
+  return HeightFieldFrame::perspective(camera.fx, camera.fx, 0.0, 0.0, turned);
+}
+
 HeightFieldFrame
 mapPlane(const GridGeometry& geometry)
 {
@@ -71,10 +98,38 @@ mapPlane(const GridGeometry& geometry)
   return HeightFieldFrame::plane(pose);
 }
 
+/** Slab of the largest sheet of a segment. Sheets of a segment are large and bend a
+ * little: the slab is as thick as a share of the segment's extent. */
+Slab
+slabOf(const Eigen::Matrix3Xd& positions, double noise)
+{
+  constexpr double kSigmas = 4.0;
+  constexpr double kShare = 0.05; // of the standard deviation of the points
+  const Eigen::Vector3d mean = positions.rowwise().mean();
+  const double spread = std::sqrt((positions.colwise() - mean).squaredNorm() /
+                                  static_cast<double>(positions.cols()));
+  return robustSlab(positions, std::max(kSigmas * noise, kShare * spread));
+}
+
+/** Base plane of the points in a slab. */
+HeightFieldFrame
+planeIn(const Slab& slab, const Eigen::Matrix3Xd& positions)
+{
+  Eigen::Matrix3Xd inside(3, positions.cols());
+  Eigen::Index count = 0;
+  for (Eigen::Index k = 0; k < positions.cols(); ++k)
+    if (slab.contains(positions.col(k)))
+      inside.col(count++) = positions.col(k);
+  return HeightFieldFrame::plane(
+      basePlane(count < 3 ? positions : Eigen::Matrix3Xd(inside.leftCols(count))));
+}
+
 } // namespace
 
 std::vector<FrameCandidate>
-candidateFrames(const GridGeometry& geometry, const Eigen::Matrix3Xd& positions)
+candidateFrames(const GridGeometry& geometry,
+                const Eigen::Matrix3Xd& positions,
+                double noise)
 {
   std::vector<FrameCandidate> result;
   if (geometry.projection == GridProjection::perspective) {
@@ -82,17 +137,27 @@ candidateFrames(const GridGeometry& geometry, const Eigen::Matrix3Xd& positions)
     result.push_back(
         {HeightFieldFrame::perspective(
              camera.fx, camera.fy, camera.cx, camera.cy, sensorPose(geometry)),
-         true});
+         CornerRule::Grid,
+         {}});
+    if (const auto turned = viewAlong(camera, sensorPose(geometry), positions))
+      result.push_back({*turned, CornerRule::View, {}});
   }
-  if (geometry.projection == GridProjection::plane)
-    result.push_back({mapPlane(geometry), false});
-  else
-    result.push_back({HeightFieldFrame::plane(basePlane(positions)), false});
+  const Slab slab = slabOf(positions, noise);
+  if (geometry.projection == GridProjection::plane) {
+    result.push_back({mapPlane(geometry), CornerRule::Surface, {}});
+    result.push_back({mapPlane(geometry), CornerRule::Surface, slab});
+  }
+  else {
+    result.push_back(
+        {HeightFieldFrame::plane(basePlane(positions)), CornerRule::Surface, {}});
+    result.push_back({planeIn(slab, positions), CornerRule::Surface, slab});
+  }
   if (geometry.projection == GridProjection::spherical) {
     const Eigen::Isometry3d view = viewOf(positions);
     if (fitsView(view, positions))
-      result.push_back(
-          {HeightFieldFrame::perspective(1.0, 1.0, 0.0, 0.0, view), false});
+      result.push_back({HeightFieldFrame::perspective(1.0, 1.0, 0.0, 0.0, view),
+                        CornerRule::View,
+                        {}});
   }
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include "grid_window.h"
 #include "mask_boundary.h"
+#include "mask_operations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,26 +14,6 @@
 namespace pcl {
 namespace nurbs {
 namespace {
-
-/** Close cells that most of their neighbours surround. */
-CellMask
-closed(const CellMask& mask)
-{
-  constexpr int kMostNeighbours = 6;
-  CellMask result = mask;
-  for (int row = 0; row < mask.height; ++row)
-    for (int column = 0; column < mask.width; ++column) {
-      int neighbours = 0;
-      for (int dr = -1; dr <= 1; ++dr)
-        for (int dc = -1; dc <= 1; ++dc)
-          neighbours += (dr != 0 || dc != 0) && mask.at(column + dc, row + dr) ? 1 : 0;
-      if (neighbours >= kMostNeighbours)
-        result.cells[static_cast<std::size_t>(row) *
-                         static_cast<std::size_t>(mask.width) +
-                     static_cast<std::size_t>(column)] = 1;
-    }
-  return result;
-}
 
 /** Finds the (u, v) of lattice corners. */
 class CornerParameters {
@@ -55,14 +36,28 @@ public:
   {
     const Eigen::Vector2d lattice =
         corner.cast<double>() + window_.origin() - Eigen::Vector2d(0.5, 0.5);
-    const Eigen::Vector2d uv =
-        surface_.frame.grid_parameters ? lattice : fromCells(corner, lattice);
+    const Eigen::Vector2d uv = uvOf(corner, lattice);
     const NurbsSurface& surface = surface_.fit.surface;
     return {surface.knotsU().clampToDomain(uv.x()),
             surface.knotsV().clampToDomain(uv.y())};
   }
 
 private:
+  Eigen::Vector2d
+  uvOf(const Eigen::Vector2i& corner, const Eigen::Vector2d& lattice) const
+  {
+    switch (surface_.frame.corners) {
+    case CornerRule::Grid:
+      return lattice;
+    case CornerRule::View:
+      return surface_.frame.frame.toLocal(geometry_.direction(lattice.x(), lattice.y()))
+          .head<2>();
+    case CornerRule::Surface:
+      break;
+    }
+    return fromCells(corner, lattice);
+  }
+
   int
   cellAt(const Eigen::Vector2i& place) const
   {
@@ -126,38 +121,6 @@ private:
   const GridWindow& window_;
   std::vector<int> position_; // in FittedSurface::cells, -1 for none
 };
-
-/** Number of cells inside of each connected part of a mask must reach a minimum;
- * smaller parts are cleared (4-neighbours). */
-void
-clearSmallParts(CellMask& mask, int fewest)
-{
-  std::vector<char> seen(mask.cells.size(), 0);
-  std::vector<int> part;
-  for (int start = 0; start < static_cast<int>(mask.cells.size()); ++start) {
-    if (mask.cells[static_cast<std::size_t>(start)] == 0 ||
-        seen[static_cast<std::size_t>(start)] != 0)
-      continue;
-    part.assign(1, start);
-    seen[static_cast<std::size_t>(start)] = 1;
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      const int column = part[k] % mask.width;
-      const int row = part[k] / mask.width;
-      for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-        if (!mask.at(column + dc, row + dr))
-          continue;
-        const int next = (row + dr) * mask.width + column + dc;
-        if (seen[static_cast<std::size_t>(next)] == 0) {
-          seen[static_cast<std::size_t>(next)] = 1;
-          part.push_back(next);
-        }
-      }
-    }
-    if (static_cast<int>(part.size()) < fewest)
-      for (int cell : part)
-        mask.cells[static_cast<std::size_t>(cell)] = 0;
-  }
-}
 
 std::vector<TrimLoop>
 trimLoops(const GridGeometry& geometry,
@@ -225,8 +188,9 @@ trimToInliers(const ReconstructionInput& input,
   for (std::size_t k = 0; k < surface.cells.size(); ++k)
     if (surface.inlier[k])
       window.mask.cells[window.index(window.place(surface.cells[k]))] = 1;
-  window.mask = closed(window.mask);
-  clearSmallParts(window.mask, input.options.min_patch_points);
+  const CellMask inliers = window.mask;
+  window.mask = closed(inliers, input.points.geometry.max_gap);
+  clearSmallParts(window.mask, inliers, input.options.min_patch_points);
 
   PatchQuality& quality = part.patch.quality;
   double sum = 0.0;

@@ -31,6 +31,22 @@ gather(const ReconstructionInput& input, const CellSet& cells, bool held_out_too
   return result;
 }
 
+/** The points inside of a slab. */
+FitPoints
+inside(const Slab& slab, const FitPoints& points)
+{
+  FitPoints result = points;
+  Eigen::Index count = 0;
+  for (Eigen::Index k = 0; k < points.positions.cols(); ++k)
+    if (slab.contains(points.positions.col(k))) {
+      result.positions.col(count) = points.positions.col(k);
+      result.sigma(count++) = points.sigma(k);
+    }
+  result.positions.conservativeResize(Eigen::NoChange, count);
+  result.sigma.conservativeResize(count);
+  return result;
+}
+
 /** Distances of all cells from the fitted surface, and who is within tolerance. */
 void
 judge(const ReconstructionInput& input, const FitPoints& all, FittedSurface& surface)
@@ -75,7 +91,7 @@ typicalCorrelation(GridProjection projection)
  * std::domain_error if none does */
 SurfaceFit
 fitInFront(const HeightFieldFrame& frame,
-           const std::pair<KnotVector, KnotVector>& knots,
+           const SurfaceKnots& knots,
            const FitPoints& points,
            SurfaceFitOptions options)
 {
@@ -99,13 +115,19 @@ fitOnce(const ReconstructionInput& input,
         const FitPoints& fitted,
         const FitPoints& all,
         const KnotSearchOptions& options,
+        const FittedSurface* coarser,
         FittedSurface& surface)
 {
   try {
     FitReport search;
-    const auto knots =
-        chooseHeightFieldKnots(surface.frame.frame, fitted, options, search);
-    surface.fit = fitInFront(surface.frame.frame, knots, fitted, input.options.fit);
+    surface.knots =
+        chooseHeightFieldKnots(surface.frame.frame,
+                               fitted,
+                               options,
+                               search,
+                               coarser != nullptr ? &coarser->knots : nullptr);
+    surface.fit =
+        fitInFront(surface.frame.frame, surface.knots, fitted, input.options.fit);
     surface.fit.report.criterion = search.criterion;
     surface.fit.report.salient = std::move(search.salient);
   } catch (const std::domain_error&) {
@@ -130,7 +152,7 @@ fitInFrame(const ReconstructionInput& input,
   const bool automatic = options.points_per_sample == 0.0;
   if (automatic)
     options.points_per_sample = typicalCorrelation(input.points.geometry.projection);
-  if (!fitOnce(input, fitted, all, options, surface))
+  if (!fitOnce(input, fitted, all, options, nullptr, surface))
     return false;
   const double count = static_cast<double>(fitted.sigma.size());
   while (automatic && options.points_per_sample > 1.0 &&
@@ -139,7 +161,7 @@ fitInFrame(const ReconstructionInput& input,
     FittedSurface finer;
     finer.frame = surface.frame;
     finer.cells = surface.cells;
-    if (!fitOnce(input, fitted, all, options, finer) ||
+    if (!fitOnce(input, fitted, all, options, &surface, finer) ||
         static_cast<double>(finer.num_inliers) <
             static_cast<double>(surface.num_inliers) + kWorthwhile * count)
       break;
@@ -173,19 +195,24 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
     return false;
   const FitPoints all = gather(input, cells, true);
   bool found = false;
+  bool seen = false; // by a camera
   for (FrameCandidate& candidate :
-       candidateFrames(input.points.geometry, fitted.positions)) {
+       candidateFrames(input.points.geometry, fitted.positions, fitted.sigma.mean())) {
+    const bool view = candidate.corners != CornerRule::Surface;
+    if (found && seen && !view)
+      break; // a camera's base planes are for what its own view cannot hold
+    seen = seen || candidate.corners == CornerRule::Grid;
     FittedSurface attempt;
     attempt.frame = std::move(candidate);
     attempt.cells = cells;
-    if (!fitInFrame(input, fitted, all, attempt))
+    const std::optional<Slab>& slab = attempt.frame.slab;
+    if (!fitInFrame(input, slab ? inside(*slab, fitted) : fitted, all, attempt))
       continue;
     if (!found || attempt.num_inliers > surface.num_inliers)
       surface = std::move(attempt);
     found = true;
-    if (surface.frame.grid_parameters ||
-        static_cast<double>(surface.num_inliers) >=
-            kGoodEnough * static_cast<double>(fitted.sigma.size()))
+    if (static_cast<double>(surface.num_inliers) >=
+        kGoodEnough * static_cast<double>(fitted.sigma.size()))
       break;
   }
   surface.noise =

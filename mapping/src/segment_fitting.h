@@ -20,6 +20,7 @@ using CellSet = std::vector<std::int32_t>;
 /** \brief A surface fitted to a set of cells. */
 struct FittedSurface {
   SurfaceFit fit;
+  SurfaceKnots knots;
   FrameCandidate frame;
   CellSet cells;               /**< all cells that were looked at */
   Eigen::Matrix2Xd parameters; /**< foot point of each of them */

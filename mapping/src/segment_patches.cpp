@@ -3,9 +3,9 @@
 
 #include "segment_patches.h"
 
+#include "mask_operations.h"
 #include "patch_trimming.h"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -43,7 +43,7 @@ public:
       const int depth = task.depth + (added ? 1 : kDepthOfHalves);
       if (depth > kMostDepth || rest.empty())
         continue;
-      for (CellSet& part : added ? connectedParts(rest) : halves(rest))
+      for (CellSet& part : added ? connectedParts(input_.points.geometry, rest, waiting_) : halves(rest))
         tasks.push_back({std::move(part), depth});
     }
     return std::move(result_);
@@ -123,48 +123,6 @@ private:
     for (std::int32_t cell : cells)
       result[place(cell) < *middle ? 0 : 1].push_back(cell);
     return result;
-  }
-
-  /** 4-connected parts of a set of cells, each in increasing order. */
-  std::vector<CellSet>
-  connectedParts(const CellSet& cells)
-  {
-    const int width = input_.points.geometry.width;
-    const int height = input_.points.geometry.height;
-    if (waiting_.empty())
-      waiting_.assign(input_.points.size(), 0);
-    for (std::int32_t cell : cells)
-      waiting_[static_cast<std::size_t>(cell)] = 1;
-    std::vector<CellSet> parts;
-    for (std::int32_t start : cells) {
-      if (waiting_[static_cast<std::size_t>(start)] == 0)
-        continue;
-      CellSet part(1, start);
-      waiting_[static_cast<std::size_t>(start)] = 0;
-      for (std::size_t k = 0; k < part.size(); ++k) {
-        const std::int32_t cell = part[k];
-        const int column = cell % width;
-        const int row = cell / width;
-        const auto visit = [&](int c, int r) {
-          if (input_.points.geometry.wrap)
-            c = (c + width) % width;
-          if (c < 0 || r < 0 || c >= width || r >= height)
-            return;
-          const std::int32_t next = r * width + c;
-          if (waiting_[static_cast<std::size_t>(next)] != 0) {
-            waiting_[static_cast<std::size_t>(next)] = 0;
-            part.push_back(next);
-          }
-        };
-        visit(column + 1, row);
-        visit(column - 1, row);
-        visit(column, row + 1);
-        visit(column, row - 1);
-      }
-      std::sort(part.begin(), part.end());
-      parts.push_back(std::move(part));
-    }
-    return parts;
   }
 
   const ReconstructionInput& input_;

@@ -17,8 +17,8 @@ constexpr std::int32_t kEmpty = -1;
 
 class Filler {
 public:
-  Filler(const GridGeometry& grid, const ChartList& charts, const Rings& rings)
-      : charts_(charts), rings_(rings), layout_{grid, {}, 0}
+  Filler(const GridGeometry& grid, const ChartList& charts)
+      : charts_(charts), layout_{grid, {}, 0}
   {
     layout_.cell_point.assign(static_cast<std::size_t>(grid.width) *
                                   static_cast<std::size_t>(grid.height),
@@ -42,11 +42,7 @@ private:
   cellOf(std::int32_t point) const
   {
     const auto index = static_cast<std::size_t>(point);
-    Eigen::Vector2d cell =
-        layout_.geometry.cell(charts_[index].x(), charts_[index].y());
-    if (rings_)
-      cell.y() = rings_.ring[index];
-    return cell;
+    return layout_.geometry.cell(charts_[index].x(), charts_[index].y());
   }
 
   /** The content of a cell, or nothing when it is outside. */
@@ -97,8 +93,6 @@ private:
     const int row = static_cast<int>(std::round(exact.y()));
     const int side = exact.x() >= column ? 1 : -1;
     const int below = exact.y() >= row ? 1 : -1;
-    if (rings_)
-      return placeFirst(point, {{column + side, row}, {column - side, row}});
     return placeFirst(point,
                       {{column + side, row},
                        {column, row + below},
@@ -120,17 +114,97 @@ private:
   }
 
   const ChartList& charts_;
-  const Rings& rings_;
   GridLayout layout_;
   std::vector<std::int32_t> losers_;
 };
+
+/** A reading of a ring and the column, not rounded, where it lies. */
+struct RingReading {
+  double column;
+  std::int32_t point;
+};
+
+/** Columns that keep the order of a ring's readings, one each, and move them least: the
+ * isotonic least squares fit of where each lies less its rank, by pooling adjacent
+ * violators (Ayer, Brunk, Ewing, Reid and Silverman, 1955). */
+std::vector<int>
+packedColumns(const std::vector<RingReading>& readings)
+{
+  struct Block {
+    double sum;
+    int count;
+  };
+  std::vector<Block> blocks;
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    blocks.push_back({readings[k].column - static_cast<double>(k), 1});
+    while (blocks.size() > 1) {
+      const Block last = blocks.back();
+      Block& before = blocks[blocks.size() - 2];
+      if (before.sum * last.count <= last.sum * before.count)
+        break;
+      before.sum += last.sum;
+      before.count += last.count;
+      blocks.pop_back();
+    }
+  }
+  std::vector<int> columns;
+  columns.reserve(readings.size());
+  for (const Block& block : blocks) {
+    const int shift = static_cast<int>(std::lround(block.sum / block.count));
+    for (int k = 0; k < block.count; ++k)
+      columns.push_back(shift + static_cast<int>(columns.size()));
+  }
+  return columns;
+}
+
+/** Readings of each ring from left to right. */
+std::vector<std::vector<RingReading>>
+sortedRings(const GridGeometry& grid, const ChartList& charts, const Rings& rings)
+{
+  std::vector<std::vector<RingReading>> rows(static_cast<std::size_t>(grid.height));
+  for (std::size_t i = 0; i < charts.size(); ++i)
+    if (rings.ring[i] >= 0 && charts[i].allFinite())
+      rows[static_cast<std::size_t>(rings.ring[i])].push_back(
+          {(charts[i].x() - grid.first_u) / grid.step_u, static_cast<std::int32_t>(i)});
+  for (std::vector<RingReading>& row : rows)
+    std::stable_sort(
+        row.begin(), row.end(), [](const RingReading& a, const RingReading& b) {
+          return a.column < b.column;
+        });
+  return rows;
+}
+
+/** Rows are rings: the turn of a laser is not quite even, so that readings share
+ * columns here and leave them empty there. */
+GridLayout
+fillRings(const GridGeometry& grid, const ChartList& charts, const Rings& rings)
+{
+  constexpr double kMostShift = 2.0;
+  GridLayout layout{grid, {}, 0};
+  const auto width = static_cast<std::size_t>(grid.width);
+  layout.cell_point.assign(width * static_cast<std::size_t>(grid.height), kEmpty);
+  std::size_t first = 0;
+  for (const std::vector<RingReading>& row : sortedRings(grid, charts, rings)) {
+    const std::vector<int> columns = packedColumns(row);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const bool placed = columns[k] >= 0 && columns[k] < grid.width &&
+                          std::abs(columns[k] - row[k].column) <= kMostShift;
+      if (placed)
+        layout.cell_point[first + static_cast<std::size_t>(columns[k])] = row[k].point;
+      else
+        ++layout.dropped;
+    }
+    first += width;
+  }
+  return layout;
+}
 
 } // namespace
 
 GridLayout
 fillCells(const GridGeometry& grid, const ChartList& charts, const Rings& rings)
 {
-  return Filler(grid, charts, rings).run();
+  return rings ? fillRings(grid, charts, rings) : Filler(grid, charts).run();
 }
 
 int

@@ -9,7 +9,8 @@ namespace pcl {
 namespace nurbs {
 
 /** Put every point into a cell of its raster: the nearest one keeps the cell, others
- * move to a free cell beside it or are dropped. Rings, when given, fix the rows. */
+ * move to a free cell beside it or are dropped. Rings, when given, are the rows; their
+ * points keep their order and are dropped when they had to move by over two cells. */
 GridLayout
 fillCells(const GridGeometry& grid, const ChartList& charts, const Rings& rings);
 

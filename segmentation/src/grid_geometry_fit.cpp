@@ -76,17 +76,13 @@ public:
   Candidate(const PointList& points, const GridGeometry& geometry) : grid_(geometry)
   {
     // Pairs of neighbours from every row are enough.
+    const auto width = static_cast<std::size_t>(grid_.width);
     const std::size_t stride = 2 * (points.size() / kSample + 1);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::size_t column = i % static_cast<std::size_t>(grid_.width);
-      if (column % stride > 1 || !points[i].allFinite())
-        continue;
-      const Eigen::Vector3d chart = grid_.chart(points[i].cast<double>());
-      if (!chart.allFinite() || (isAngular() && chart.z() <= 0.0))
-        continue;
-      add(columns_, column, chart.x());
-      add(rows_, i / static_cast<std::size_t>(grid_.width), chart.y());
-    }
+    for (std::size_t row = 0; row * width < points.size(); ++row)
+      // Rows take turns, so that every column is seen.
+      for (std::size_t first = 2 * row % stride; first < width; first += stride)
+        for (std::size_t column = first; column < std::min(first + 2, width); ++column)
+          addPoint(points[row * width + column], column, row);
     if (grid_.projection == GridProjection::spherical)
       unrollColumns();
   }
@@ -118,6 +114,18 @@ public:
   }
 
 private:
+  void
+  addPoint(const Eigen::Vector3f& point, std::size_t column, std::size_t row)
+  {
+    if (!point.allFinite())
+      return;
+    const Eigen::Vector3d chart = grid_.chart(point.cast<double>());
+    if (!chart.allFinite() || (isAngular() && chart.z() <= 0.0))
+      return;
+    add(columns_, column, chart.x());
+    add(rows_, row, chart.y());
+  }
+
   static void
   add(Samples& samples, std::size_t index, double value)
   {

@@ -3,118 +3,122 @@
 
 #include <pcl/segmentation/sensor_noise.h>
 
+#include "noise_bins.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace pcl {
 namespace {
 
 using nurbs::GridPoints;
+using nurbs::NoiseBin;
 
-constexpr int kBins = 16;
 constexpr std::size_t kEnough = 200; // samples that make the median of a bin useful
-constexpr double kMedianToSigma = 1.4826;
 
-struct Bin {
-  std::vector<float> depths;
-  std::vector<float> deviations; // depth units, |second difference| / sqrt(6)
-  std::vector<float> steps;      // between next neighbours of different depth
-  std::size_t ties = 0;          // next neighbours of the same depth
+/** Part of the absolute deviations that is surely noise. */
+struct Share {
+  double quantile;
+  double to_sigma; // for normally distributed noise
 };
 
-double
-median(std::vector<float>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr Share kHalf{0.5, 1.4826};
+/** Scattered samples of plants and clutter may well be the majority. */
+constexpr Share kQuarter{0.25, 3.1381};
 
-/** Depth deviation of the middle of three samples from their common line. */
-float
-deviation(const GridPoints& points, std::size_t middle, std::size_t step, bool inverse)
+double
+quantile(std::vector<float>& values, double share)
 {
-  const float before = points.depth[middle - step];
-  const float here = points.depth[middle];
-  const float after = points.depth[middle + step];
-  const float bend = inverse
-                         ? here * here * (1.0F / before - 2.0F / here + 1.0F / after)
-                         : before - 2.0F * here + after;
-  return std::abs(bend) / std::sqrt(6.0F);
+  const auto where = values.begin() + static_cast<std::ptrdiff_t>(
+                                          share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), where, values.end());
+  return *where;
 }
 
 std::vector<float>
 validDepths(const GridPoints& points)
 {
   std::vector<float> depths;
+  depths.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points.valid(i))
       depths.push_back(points.depth[i]);
   return depths;
 }
 
-std::vector<Bin>
-collectBins(const GridPoints& points, float nearest, float farthest)
+/** Deviation along one direction of a bin; nothing when there are too few samples. */
+std::optional<double>
+spreadOf(NoiseBin& bin, std::size_t direction, const Share& share)
 {
-  const auto projection = points.geometry.projection;
-  const bool inverse = projection == GridProjection::perspective ||
-                       projection == GridProjection::spherical;
-  const std::size_t step = projection == GridProjection::perspective ? 4 : 1;
-  const auto width = static_cast<std::size_t>(points.geometry.width);
-  const float scale = kBins / std::max(farthest - nearest, 1e-6F);
-  std::vector<Bin> bins(kBins);
-  for (std::size_t first = 0; first + width <= points.size(); first += width)
-    for (std::size_t i = first + step; i + step < first + width; ++i) {
-      const float value = deviation(points, i, step, inverse);
-      if (std::isnan(value))
-        continue;
-      const float where = (points.depth[i] - nearest) * scale;
-      Bin& bin = bins[static_cast<std::size_t>(std::clamp(where, 0.0F, kBins - 1.0F))];
-      bin.depths.push_back(points.depth[i]);
-      bin.deviations.push_back(value);
-      const float change = std::abs(points.depth[i + 1] - points.depth[i]);
-      if (change > 0.0F)
-        bin.steps.push_back(change);
-      else if (change == 0.0F)
-        ++bin.ties;
-    }
-  return bins;
+  std::vector<float>& deviations = bin.deviations[direction];
+  if (deviations.size() < kEnough)
+    return std::nullopt;
+  return share.to_sigma * quantile(deviations, share.quantile);
+}
+
+/** What the deviations along columns have in excess of those along rows, at least,
+ * in any bin that holds many. Rings of a laser are aligned to each other to so much
+ * only; farther away, where rings lie apart and graze the ground, errors of their angle
+ * and the roughness of the scene add to it. */
+double
+excessAlongColumns(std::vector<NoiseBin>& bins, const Share& share)
+{
+  std::size_t samples = 0;
+  for (const NoiseBin& bin : bins)
+    samples += bin.deviations[1].size();
+  std::optional<double> least;
+  for (NoiseBin& bin : bins) {
+    if (20 * bin.deviations[1].size() < samples)
+      continue; // too few to be relied on alone
+    const std::optional<double> row = spreadOf(bin, 0, share);
+    const std::optional<double> column = spreadOf(bin, 1, share);
+    if (!row || !column)
+      continue;
+    const double excess = std::sqrt(std::max(0.0, *column * *column - *row * *row));
+    least = std::min(excess, least.value_or(excess));
+  }
+  return least.value_or(0.0);
 }
 
 /** Deviation of a bin. Depths that come in steps often tie; most of their second
  * differences vanish although each errs by up to half a step. */
 double
-sigmaOf(Bin& bin)
+sigmaOf(NoiseBin& bin, const Share& share, double excess)
 {
-  const double spread = kMedianToSigma * median(bin.deviations);
+  const double spread = std::hypot(spreadOf(bin, 0, share).value_or(0.0), excess);
   if (bin.steps.empty() || bin.ties < bin.steps.size() / 4)
     return spread;
-  return std::hypot(spread, median(bin.steps) / std::sqrt(12.0));
+  return std::hypot(spread, quantile(bin.steps, 0.5) / std::sqrt(12.0));
 }
 
 /** Weighted line sigma = a + b depth^2 through the bins, neither term negative. */
 SensorNoise
-fitBins(std::vector<Bin>& bins, double fallback)
+fitBins(std::vector<NoiseBin>& bins, const Share& share, double fallback)
 {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  for (Bin& bin : bins) {
-    if (bin.deviations.size() < kEnough)
+  const double excess = excessAlongColumns(bins, share);
+  for (NoiseBin& bin : bins) {
+    const std::size_t samples = bin.deviations[0].size();
+    if (samples < kEnough)
       continue;
-    const double depth = median(bin.depths);
-    const double sigma = sigmaOf(bin);
+    const double depth = quantile(bin.depths, 0.5);
+    const double sigma = sigmaOf(bin, share, excess);
     const Eigen::Vector2d row(1.0, depth * depth);
     // Relative errors count, so that near bins are not drowned by far ones.
-    const double weight = std::sqrt(static_cast<double>(bin.deviations.size())) /
-                          std::max(sigma * sigma, 1e-12);
+    const double weight =
+        std::sqrt(static_cast<double>(samples)) / std::max(sigma * sigma, 1e-12);
     normal += weight * row * row.transpose();
     right += weight * sigma * row;
   }
   if (normal(0, 0) == 0.0)
     return {fallback, 0.0, 0.0};
+  if (bins.size() == 1)
+    return {right(0) / normal(0, 0), 0.0, 0.0};
   const Eigen::Vector2d both = normal.fullPivLu().solve(right);
   if (both.y() < 0.0 || !both.allFinite())
     return {right(0) / normal(0, 0), 0.0, 0.0};
@@ -143,10 +147,11 @@ SensorNoise::estimate(const GridPoints& points)
   std::vector<float> depths = validDepths(points);
   if (depths.empty())
     return {};
-  const double typical = std::abs(median(depths));
+  const double typical = std::abs(quantile(depths, 0.5));
   const auto [nearest, farthest] = std::minmax_element(depths.begin(), depths.end());
-  std::vector<Bin> bins = collectBins(points, *nearest, *farthest);
-  return fitBins(bins, 0.001 * typical);
+  std::vector<NoiseBin> bins = nurbs::sampleNoise(points, *nearest, *farthest);
+  const bool scattered = points.geometry.max_gap > 1 && points.geometry.row_v.empty();
+  return fitBins(bins, scattered ? kQuarter : kHalf, 0.001 * typical);
 }
 
 } // namespace pcl

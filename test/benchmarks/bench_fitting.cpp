@@ -6,11 +6,15 @@
 
 #include "wave.h"
 
+#include <pcl/surface/nurbs/surface_fitter.h>
+
 #include <benchmark/benchmark.h>
 
 #ifdef PCL_NURBS_HAVE_ALGLIB
 #include <libalglib/interpolation.h>
 #endif
+
+#include <utility>
 
 namespace {
 
@@ -32,6 +36,109 @@ measure(State& state, const Samples& samples, Fit fit)
   }
   state.counters["truth_rms_mm"] = 1e3 * rms;
 }
+
+constexpr int kThreads = 2;
+
+FitPoints
+wavePoints(int count)
+{
+  FitPoints points;
+  points.positions = waveSamples(count);
+  points.parameters = points.positions.topRows(2);
+  points.sigma = Eigen::VectorXd::Constant(count, kNoise);
+  return points;
+}
+
+KnotVector
+netKnots()
+{
+  return KnotVector::clampedUniform(3, kNet - 3, -1.0, 1.0);
+}
+
+/** The surface as measure() wants it; parameters stay inside of the fitted domain,
+ * which ends at the outermost samples where knots are chosen. */
+auto
+evaluator(NurbsSurface surface)
+{
+  return [surface = std::move(surface)](double u, double v) {
+    return surface.evaluate(surface.knotsU().clampToDomain(u),
+                            surface.knotsV().clampToDomain(v));
+  };
+}
+
+/** Heights over the plane: the linear problem that ALGLIB solves as well. */
+void
+oursOnePass(State& state)
+{
+  SurfaceFitOptions options;
+  options.distance = FitDistance::Parametric;
+  options.measure = false;
+  options.threads = kThreads;
+  measure(
+      state,
+      wavePoints(static_cast<int>(state.range(0))),
+      [&](const FitPoints& points) {
+        return evaluator(
+            fitHeightField(HeightFieldFrame(), netKnots(), netKnots(), points, options)
+                .surface);
+      });
+}
+
+/** x, y and z, with the parameters corrected until the cost is steady. */
+void
+oursFull(State& state)
+{
+  SurfaceFitOptions options;
+  options.distance = FitDistance::Alternating;
+  options.tolerance = 1e-4;
+  options.measure = false;
+  options.threads = kThreads;
+  measure(state,
+          wavePoints(static_cast<int>(state.range(0))),
+          [&](const FitPoints& points) {
+            return evaluator(
+                fitParametric(netKnots(), netKnots(), points, options).surface);
+          });
+}
+
+/** Degrees and knots are found as well; the noise is stated wrongly by a factor. */
+void
+oursAdaptive(State& state)
+{
+  FitPoints points = wavePoints(100000);
+  points.sigma *= static_cast<double>(state.range(0));
+  SurfaceFitOptions options;
+  options.distance = FitDistance::Parametric;
+  options.measure = false;
+  options.threads = kThreads;
+  int coefficients = 0;
+  measure(state, points, [&](const FitPoints& samples) {
+    FitReport report;
+    const SurfaceKnots knots = chooseHeightFieldKnots(
+        HeightFieldFrame(), samples, KnotSearchOptions(), report);
+    SurfaceFit fit =
+        fitHeightField(HeightFieldFrame(), knots.first, knots.second, samples, options);
+    coefficients = fit.surface.numControlPoints();
+    return evaluator(std::move(fit.surface));
+  });
+  state.counters["coefficients"] = coefficients;
+}
+
+BENCHMARK(oursOnePass)
+    ->Name("fit_one_pass/ours")
+    ->Arg(100000)
+    ->Arg(1000000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(oursFull)
+    ->Name("fit_full_3d/ours")
+    ->Arg(100000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(oursAdaptive)
+    ->Name("fit_adaptive/ours")
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Unit(benchmark::kMillisecond);
 
 #ifdef PCL_NURBS_HAVE_ALGLIB
 /** Bicubic height field, the kind of surface this builder makes. */

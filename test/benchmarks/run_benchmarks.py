@@ -34,8 +34,14 @@ ROWS = {
     "closest_point_build": ("Closest point: build the search", None),
     "closest_point_global": ("Closest point, up to 0.5 m away, no guess", None),
     "closest_point_warm": ("Closest point, up to 2 cm away, guess off by 1 cm", "0.4 µs"),
+    "evaluate_jet1_batch": ("Point and first derivatives, bicubic, 100k at once", "60 ns"),
+    "tessellate_trimmed": ("Triangles of a trimmed surface, 256 × 256", "50 ms"),
     "fit_one_pass/100000": ("Fit 100k points, 34 × 34, given parameters", "30 ms"),
     "fit_one_pass/1000000": ("Fit 1M points, 34 × 34, given parameters", "250 ms"),
+    "fit_full_3d/100000": ("Fit 100k points, 34 × 34, three coordinates, parameters corrected", "150 ms"),
+    "fit_adaptive/1": ("Fit 100k points, knots chosen, noise stated rightly", "100 ms"),
+    "fit_adaptive/2": ("Fit 100k points, knots chosen, noise stated twice too large", "100 ms"),
+    "fit_adaptive/4": ("Fit 100k points, knots chosen, noise stated four times too large", "100 ms"),
 }
 UNITS = {"ns": 1e-9, "us": 1e-6, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
 NOT_QUALITY = {"calls"}

@@ -100,13 +100,29 @@ private:
   bool has_derivatives_ = false;
 };
 
+/** Ends a solve when the cost is as good as zero: relative criteria never would. */
+class StopAtCost : public ceres::IterationCallback {
+public:
+  explicit StopAtCost(double cost) : cost_(cost) {}
+
+  ceres::CallbackReturnType
+  operator()(const ceres::IterationSummary& summary) override
+  {
+    return summary.cost <= cost_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                 : ceres::SOLVER_CONTINUE;
+  }
+
+private:
+  double cost_;
+};
+
 ceres::Solver::Options
 solverOptions(const CeresLimits& limits, Eigen::Index unknowns)
 {
-  constexpr Eigen::Index kDenseLimit = 100;
   ceres::Solver::Options options;
-  options.linear_solver_type = unknowns <= kDenseLimit ? ceres::DENSE_NORMAL_CHOLESKY
-                                                       : ceres::SPARSE_NORMAL_CHOLESKY;
+  options.linear_solver_type = unknowns <= limits.dense_unknowns
+                                   ? ceres::DENSE_NORMAL_CHOLESKY
+                                   : ceres::SPARSE_NORMAL_CHOLESKY;
   options.num_threads = limits.threads;
   options.max_num_iterations = limits.max_iterations;
   options.function_tolerance = limits.function_tolerance;
@@ -122,7 +138,8 @@ solve(const ceres::Solver::Options& options, ceres::Problem& problem)
   ceres::Solve(options, &problem, &summary);
   CeresReport report;
   report.usable = summary.IsSolutionUsable();
-  report.converged = summary.termination_type == ceres::CONVERGENCE;
+  report.converged = summary.termination_type == ceres::CONVERGENCE ||
+                     summary.termination_type == ceres::USER_SUCCESS;
   report.iterations = static_cast<int>(summary.iterations.size());
   report.initial_cost = summary.initial_cost;
   report.final_cost = summary.final_cost;
@@ -214,6 +231,9 @@ solveNonlinearCells(const CellPoints& points,
   ceres::Solver::Options options = solverOptions(limits, unknowns.size());
   if (options.linear_solver_type == ceres::DENSE_NORMAL_CHOLESKY)
     options.linear_solver_type = ceres::DENSE_QR; // copes with unknowns that may slide
+  StopAtCost stop(limits.negligible_cost);
+  options.callbacks.push_back(&stop);
+  options.initial_trust_region_radius = limits.trust_radius;
   options.gradient_tolerance = 0.0; // scale-free stopping: by cost and by step only
   return solve(options, problem);
 }

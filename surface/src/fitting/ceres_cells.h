@@ -29,6 +29,9 @@ struct CeresLimits {
   int max_iterations = 50;
   double function_tolerance = 1e-8;
   double parameter_tolerance = 1e-10;
+  double trust_radius = 1e4;  /**< initial, of a nonlinear problem */
+  double negligible_cost = 0; /**< at which a nonlinear problem is solved */
+  int dense_unknowns = 100;   /**< most unknowns for a dense factor */
 };
 
 /** \brief Least-squares solution of linear cell equations: one residual block per cell

@@ -57,10 +57,12 @@ select(const FitPoints& points, const std::vector<Eigen::Index>& which)
   return result;
 }
 
-/** Knot cells whose normal at the middle and at a corner point away from each other. */
+/** Knot cells whose normals at the middle and near the corners, or on both sides of a
+ * border with the next cell, point away from each other. */
 int
 countFoldovers(const NurbsSurface& surface)
 {
+  constexpr double kNear = 0.02; // of a cell
   const std::vector<double> u = surface.knotsU().breaks();
   const std::vector<double> v = surface.knotsV().breaks();
   int count = 0;
@@ -73,9 +75,15 @@ countFoldovers(const NurbsSurface& surface)
       };
       const Eigen::Vector3d middle = normalAt(0.5, 0.5);
       bool folded = false;
-      for (double a : {0.02, 0.98})
-        for (double b : {0.02, 0.98})
+      for (double a : {kNear, 1.0 - kNear})
+        for (double b : {kNear, 1.0 - kNear})
           folded = folded || middle.dot(normalAt(a, b)) < 0.0;
+      if (i + 2 < u.size())
+        folded =
+            folded || normalAt(1.0 - kNear, 0.5).dot(normalAt(1.0 + kNear, 0.5)) < 0.0;
+      if (j + 2 < v.size())
+        folded =
+            folded || normalAt(0.5, 1.0 - kNear).dot(normalAt(0.5, 1.0 + kNear)) < 0.0;
       count += folded ? 1 : 0;
     }
   return count;
@@ -141,7 +149,7 @@ solveLinear(const CellPoints& points,
             Eigen::MatrixXd& unknowns,
             FitReport& report)
 {
-  constexpr Eigen::Index kMostForCeres = 400;
+  constexpr Eigen::Index kMostForCeres = 200;
   report.undetermined = countUndetermined(points, cells);
   const double stiffness = options.fairness * totalInformation(cells);
   // A trace of membrane energy also holds degree 1, which has no second derivatives.

@@ -147,27 +147,31 @@ solveHeights(const KnotVector& knots_u,
   constexpr int kMostRounds = 10;
   constexpr double kSteadyWeights = 2e-3;
   const int rounds = options.loss == RobustLoss::Squared
-                         ? 1
+                         ? 0
                          : std::min(options.max_iterations, kMostRounds);
   const CellPoints cells(knots_u, knots_v, local.parameters);
   Eigen::MatrixXd unknowns = Eigen::MatrixXd::Zero(cells.numControlPoints(), 1);
   Eigen::VectorXd robust;
-  for (int round = 0; round < rounds; ++round) {
-    const PointRows rows = heightRows(cells, local, robust);
-    if (!solveLinear(cells,
-                     reduceCells(cells, rows, options.threads),
-                     {},
-                     options,
-                     unknowns,
-                     report))
+  const auto solve = [&](const SurfaceFitOptions& how) {
+    std::vector<CellEquations> equations =
+        reduceCells(cells, heightRows(cells, local, robust), options.threads);
+    if (!solveLinear(cells, std::move(equations), {}, how, unknowns, report))
       throw std::domain_error("height field: " + report.message);
     ++report.iterations;
-    if (round + 1 == rounds)
+  };
+  // Rounds that only find the weights need no more than the quickest solution.
+  SurfaceFitOptions quick = options;
+  quick.linear_solver = LinearSolver::Cholesky;
+  for (int round = 0; round < rounds; ++round) {
+    solve(quick);
+    const Eigen::VectorXd previous = std::move(robust);
+    robust = robustWeights((local.heights - evaluateHeights(cells, unknowns.col(0)))
+                               .cwiseQuotient(local.sigma),
+                           options);
+    if (previous.size() != 0 && (robust - previous).cwiseAbs().mean() < kSteadyWeights)
       break;
-    const Eigen::VectorXd present = evaluateHeights(cells, unknowns.col(0));
-    robust =
-        robustWeights((local.heights - present).cwiseQuotient(local.sigma), options);
   }
+  solve(options);
   return unknowns.col(0);
 }
 
@@ -226,15 +230,22 @@ fitHeightField(const HeightFieldFrame& frame,
   return fit;
 }
 
-std::pair<KnotVector, KnotVector>
+SurfaceKnots
 chooseHeightFieldKnots(const HeightFieldFrame& frame,
                        const FitPoints& points,
                        const KnotSearchOptions& options,
-                       FitReport& report)
+                       FitReport& report,
+                       const SurfaceKnots* start)
 {
   const SplitPoints split(points, SurfaceFitOptions());
   const LocalPoints local = toLocal(frame, split.fitted);
-  return searchBinned(local.parameters, local.heights, local.sigma, options, report);
+  return searchBinned(local.parameters,
+                      local.heights,
+                      local.sigma,
+                      points.sigma.size() != 0,
+                      options,
+                      start,
+                      report);
 }
 
 } // namespace nurbs

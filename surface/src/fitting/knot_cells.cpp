@@ -47,14 +47,35 @@ KnotCells::KnotCells(const KnotVector& knots)
     first_control_.push_back(span - degree_);
     chebyshev_.push_back(chebyshevCoefficients(knots, span));
   }
+  fillBuckets();
+}
+
+void
+KnotCells::fillBuckets()
+{
+  constexpr int kBucketsPerCell = 4;
+  const int buckets = kBucketsPerCell * count();
+  const double length = breaks_.back() - breaks_.front();
+  buckets_per_length_ = buckets / length;
+  int cell = 0;
+  for (int k = 0; k < buckets; ++k) {
+    while (cell + 1 < count() && end(cell) <= breaks_.front() + k * length / buckets)
+      ++cell;
+    bucket_.push_back(cell);
+  }
 }
 
 int
 KnotCells::locate(double u) const
 {
-  const auto inner_begin = breaks_.begin() + 1;
-  return static_cast<int>(std::upper_bound(inner_begin, breaks_.end() - 1, u) -
-                          inner_begin);
+  const double position = (u - breaks_.front()) * buckets_per_length_;
+  const double last = static_cast<double>(bucket_.size() - 1);
+  int cell = bucket_[static_cast<std::size_t>(std::clamp(position, 0.0, last))];
+  while (cell > 0 && u < begin(cell)) // a bucket's first cell may be rounded up
+    --cell;
+  while (cell + 1 < count() && u >= end(cell))
+    ++cell;
+  return cell;
 }
 
 } // namespace nurbs

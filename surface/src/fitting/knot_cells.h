@@ -78,10 +78,15 @@ public:
   }
 
 private:
+  void
+  fillBuckets();
+
   int degree_;
   int num_control_points_;
   std::vector<double> breaks_;
   std::vector<int> first_control_;
+  double buckets_per_length_ = 0.0;
+  std::vector<int> bucket_; // equal parts of the domain: the cell each begins in
   std::vector<Eigen::MatrixXd> chebyshev_;
 };
 

@@ -8,11 +8,10 @@
 #include "group_testing.h"
 #include "normal_equations.h"
 
-#include <pcl/surface/nurbs/surface_fitter.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace pcl {
@@ -41,6 +40,12 @@ struct Axis {
   {
     return static_cast<int>(breaks.size()) - 2;
   }
+
+  bool
+  operator==(const Axis& other) const
+  {
+    return degree == other.degree && breaks == other.breaks;
+  }
 };
 
 struct Model {
@@ -65,31 +70,49 @@ sampleNoise(const SampleGrid& samples, double stated)
   return shown > 0.0 ? std::max(shown, kTrust * stated) : stated;
 }
 
+/** Residual of a sample of unit weight that rounding and the trace of stiffness leave
+ * behind: whatever is below says nothing. */
+double
+roundingFloor(const SampleGrid& samples)
+{
+  constexpr double kRelative = 1e-9;
+  const double energy =
+      (samples.weights.transpose() * samples.values.cwiseAbs2()).sum() /
+      static_cast<double>(samples.values.size());
+  return std::max(kRelative * std::sqrt(energy), std::numeric_limits<double>::min());
+}
+
 /** Tries models on the samples. */
 class KnotSearch {
 public:
-  KnotSearch(const SampleGrid& samples, double noise, const KnotSearchOptions& options)
+  KnotSearch(const SampleGrid& samples,
+             double noise,
+             const KnotSearchOptions& options,
+             const SurfaceKnots* start)
       : samples_(samples),
         options_(options),
         stated_(noise),
-        noise_(sampleNoise(samples, noise))
+        floor_(roundingFloor(samples)),
+        noise_(std::max(sampleNoise(samples, noise), floor_))
   {
     best_.u.breaks = {samples.low.x(),
                       samples.low.x() + samples.rows * samples.bin_size.x()};
     best_.v.breaks = {samples.low.y(),
                       samples.low.y() + samples.columns * samples.bin_size.y()};
+    best_.u.degree = std::max(1, options.degree_u);
+    best_.v.degree = std::max(1, options.degree_v);
+    if (start != nullptr) {
+      best_.u = {start->first.degree(), start->first.breaks()};
+      best_.v = {start->second.degree(), start->second.breaks()};
+    }
     evaluate(best_);
   }
 
   KnotSearchResult
   run()
   {
-    findSalient();
-    while (!salient_.empty() && improve(growthMoves()))
-      findSalient();
-    while (improve(shrinkMoves())) {
-    }
-    findSalient();
+    if (best_.coefficients.size() != 0) // else there are too few samples for any model
+      search();
     KnotSearchResult result;
     result.knots_u = best_.u.knots();
     result.knots_v = best_.v.knots();
@@ -100,6 +123,17 @@ public:
   }
 
 private:
+  void
+  search()
+  {
+    findSalient();
+    while (!salient_.empty() && improve(growthMoves()))
+      findSalient();
+    while (improve(shrinkMoves())) {
+    }
+    findSalient();
+  }
+
   /** Fit a model to the samples and set its criterion; infinite if it cannot be fitted.
    */
   void
@@ -121,10 +155,10 @@ private:
     const double values = static_cast<double>(samples_.values.size());
     const double stored = controls * static_cast<double>(samples_.values.cols()) +
                           model.u.innerKnots() + model.v.innerKnots();
-    // Mean weight 1, so that RSS / n is a variance. A sum below rounding is rounding.
-    const double rounding = 1e-24 * samples_.values.squaredNorm();
+    // Mean weight 1, so that RSS / n is a variance.
     const double scale = static_cast<double>(samples_.size()) / samples_.weights.sum();
-    double rss = std::max(residuals(model).squaredNorm() * scale, rounding);
+    const double rounding = floor_ * floor_ * values;
+    double rss = std::max(residuals(model).squaredNorm(), rounding) * scale;
     if (options_.criterion == ModelCriterion::KnownNoise)
       rss /= std::max(stated_ * stated_ * scale, std::numeric_limits<double>::min());
     model.criterion = modelCriterion(options_.criterion, values, rss, stored);
@@ -179,7 +213,6 @@ private:
   findSalient()
   {
     const Eigen::MatrixXd residual = residuals(best_);
-    const double noise = std::max(noise_, std::numeric_limits<double>::min());
     Eigen::MatrixXd scores = Eigen::MatrixXd::Constant(
         samples_.rows, samples_.columns, std::numeric_limits<double>::quiet_NaN());
     for (Eigen::Index k = 0; k < samples_.size(); ++k) {
@@ -188,7 +221,7 @@ private:
       Eigen::Index largest;
       residual.row(k).cwiseAbs().maxCoeff(&largest);
       scores(bin / samples_.columns, bin % samples_.columns) =
-          residual(k, largest) / noise;
+          residual(k, largest) / noise_;
     }
     salient_ = findSalientGroups(scores, options_.significance);
   }
@@ -243,12 +276,24 @@ private:
     return result;
   }
 
+  bool
+  allowed(const Axis& axis, int fixed_degree) const
+  {
+    return fixed_degree > 0 ? axis.degree == fixed_degree
+                            : axis.degree <= options_.max_degree;
+  }
+
   std::vector<Model>
   growthMoves() const
   {
     std::vector<Model> moves;
     const auto add = [&](Axis u, Axis v) {
-      if (u.degree > options_.max_degree || v.degree > options_.max_degree)
+      const bool known =
+          std::any_of(moves.begin(), moves.end(), [&](const Model& move) {
+            return move.u == u && move.v == v;
+          });
+      if (known || (u == best_.u && v == best_.v) || !allowed(u, options_.degree_u) ||
+          !allowed(v, options_.degree_v))
         return;
       moves.emplace_back(std::move(u), std::move(v));
     };
@@ -287,9 +332,9 @@ private:
       for (std::size_t k = 1; k + 1 < best_.v.breaks.size(); ++k)
         moves.emplace_back(best_.u, without(best_.v, k));
     }
-    if (best_.u.degree > 1)
+    if (best_.u.degree > 1 && options_.degree_u == 0)
       moves.emplace_back(Axis{best_.u.degree - 1, best_.u.breaks}, best_.v);
-    if (best_.v.degree > 1)
+    if (best_.v.degree > 1 && options_.degree_v == 0)
       moves.emplace_back(best_.u, Axis{best_.v.degree - 1, best_.v.breaks});
     return moves;
   }
@@ -313,6 +358,7 @@ private:
   const SampleGrid& samples_;
   const KnotSearchOptions& options_;
   double stated_;
+  double floor_;
   double noise_;
   Model best_;
   std::vector<BinGroup> salient_;
@@ -340,18 +386,26 @@ modelCriterion(ModelCriterion criterion, double samples, double rss, double para
 }
 
 KnotSearchResult
-searchKnots(const SampleGrid& samples, double noise, const KnotSearchOptions& options)
+searchKnots(const SampleGrid& samples,
+            double noise,
+            const KnotSearchOptions& options,
+            const SurfaceKnots* start)
 {
-  return KnotSearch(samples, noise, options).run();
+  return KnotSearch(samples, noise, options, start).run();
 }
 
-std::pair<KnotVector, KnotVector>
+SurfaceKnots
 searchBinned(const Eigen::Matrix2Xd& parameters,
              const Eigen::MatrixXd& values,
              const Eigen::VectorXd& sigma,
+             bool sigma_is_known,
              const KnotSearchOptions& options,
+             const SurfaceKnots* start,
              FitReport& report)
 {
+  if (options.criterion == ModelCriterion::KnownNoise && !sigma_is_known)
+    throw std::invalid_argument(
+        "knot search: known noise needs the sigma of the points");
   constexpr double kFewestSamples = 16.0;
   const ParameterBox box = ParameterBox::around(parameters);
   const double count = static_cast<double>(values.rows());
@@ -364,8 +418,8 @@ searchBinned(const Eigen::Matrix2Xd& parameters,
                            values,
                            sigma.array().square().inverse(),
                            static_cast<int>(target));
-  KnotSearchResult result =
-      searchKnots(samples, 1.0, options); // weights are 1 / sigma^2
+  const double stated = sigma_is_known ? 1.0 : 0.0; // weights are 1 / sigma^2
+  KnotSearchResult result = searchKnots(samples, stated, options, start);
   report.criterion = result.criterion;
   report.salient = std::move(result.salient);
   return {std::move(result.knots_u), std::move(result.knots_v)};

@@ -7,6 +7,7 @@
 
 #include <pcl/surface/nurbs/fit_options.h>
 #include <pcl/surface/nurbs/knot_vector.h>
+#include <pcl/surface/nurbs/surface_fitter.h>
 
 #include <utility>
 #include <vector>
@@ -36,22 +37,31 @@ modelCriterion(ModelCriterion criterion, double samples, double rss, double para
  * the salient bins, knots are added where they are (or a degree is raised) as long as
  * the criterion falls, and knots it no longer needs are taken out again. \param[in]
  * samples binned points \param[in] noise stated standard deviation of a value of unit
- * weight; what the samples themselves show comes first, except for KnownNoise
- * \param[in] options limits and criterion */
+ * weight, 0 if unknown; what the samples themselves show comes first, except for
+ * KnownNoise
+ * \param[in] options limits and criterion
+ * \param[in] start model to begin with instead, over the same domain; null for none */
 KnotSearchResult
-searchKnots(const SampleGrid& samples, double noise, const KnotSearchOptions& options);
+searchKnots(const SampleGrid& samples,
+            double noise,
+            const KnotSearchOptions& options,
+            const SurfaceKnots* start = nullptr);
 
 /** \brief Bin points over the box of their parameters and search.
  * \param[in] parameters (u, v) of each point
  * \param[in] values one row per point
  * \param[in] sigma standard deviation of each point's values
  * \param[in] options limits and criterion
- * \param[out] report criterion and remaining salient regions are set */
-std::pair<KnotVector, KnotVector>
+ * \param[in] start see searchKnots()
+ * \param[out] report criterion and remaining salient regions are set
+ * \throws std::invalid_argument for KnownNoise without a known sigma */
+SurfaceKnots
 searchBinned(const Eigen::Matrix2Xd& parameters,
              const Eigen::MatrixXd& values,
              const Eigen::VectorXd& sigma,
+             bool sigma_is_known,
              const KnotSearchOptions& options,
+             const SurfaceKnots* start,
              FitReport& report);
 
 } // namespace nurbs

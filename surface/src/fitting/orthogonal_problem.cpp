@@ -3,6 +3,7 @@
 
 #include "orthogonal_problem.h"
 
+#include "cell_rows.h"
 #include "foot_point.h"
 #include "robust_loss.h"
 
@@ -38,6 +39,14 @@ evaluateWeight(const NurbsSurface& surface, const Eigen::Vector2d& uv)
                 basis_v[static_cast<std::size_t>(j)] *
                 surface.weight(span_u - u.degree() + i, span_v - v.degree() + j);
   return weight;
+}
+
+double
+diagonal(const Eigen::Matrix3Xd& positions)
+{
+  const double length =
+      (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
+  return length > 0.0 ? length : 1.0;
 }
 
 /** Unit normal and two unit tangents as columns. */
@@ -123,7 +132,8 @@ OrthogonalProblem::OrthogonalProblem(const SurfaceUnknowns& unknowns,
       positions_(positions),
       parameters_(parameters),
       sigma_(sigma),
-      options_(options)
+      options_(options),
+      extent_(diagonal(positions))
 {
 }
 
@@ -133,7 +143,6 @@ OrthogonalProblem::evaluatePoints(const NurbsSurface& surface,
                                   PointTerms& terms) const
 {
   constexpr int kSteps = 3; // the residual is small beside the radius of curvature
-  constexpr double kSlidingWeight = 1e-3;
   constexpr double kDomainMargin = 0.5;
   const Eigen::Index count = positions_.cols();
   const int rows = rowsPerPoint();
@@ -149,12 +158,14 @@ OrthogonalProblem::evaluatePoints(const NurbsSurface& surface,
         projectFrom(surface, point, kSteps, margin, parameters.col(k));
     const Eigen::Vector2d uv = parameters.col(k);
     const Eigen::Matrix3d frame = surfaceFrame(jet); // normal, then two tangents
-    const double distance = frame.col(0).dot(point - jet.position);
-    const double s = distance / sigma_(k);
-    const LossValue loss = evaluateLoss(options_.loss, options_.loss_scale, s * s);
+    const Eigen::Vector3d offset = point - jet.position;
+    const double distance = frame.col(0).dot(offset);
+    // The cost also counts what is left along the surface where a foot is held at the
+    // margin or has not settled: a step must not win by moving feet out of reach.
+    const double s = offset.squaredNorm() / (sigma_(k) * sigma_(k));
+    const LossValue loss = evaluateLoss(options_.loss, options_.loss_scale, s);
     for (int row = 0; row < rows; ++row) {
-      const double root = std::sqrt(loss.slope) / sigma_(k) *
-                          (row == 0 ? 1.0 : std::sqrt(kSlidingWeight));
+      const double root = std::sqrt(loss.slope) / sigma_(k);
       const Eigen::Index at = rows * k + row;
       double* factors = terms.factors.data() + at * terms.factors.rows();
       unknowns_.sensitivity(surface, uv, jet.position, frame.col(row), factors);
@@ -163,6 +174,53 @@ OrthogonalProblem::evaluatePoints(const NurbsSurface& surface,
     }
     terms.cost(k) = loss.rho;
   }
+  if (rows > 1)
+    dampSliding(terms);
+}
+
+double
+OrthogonalProblem::costOf(double distance) const
+{
+  return 0.5 * std::pow(distance * extent_, 2) *
+         sigma_.array().square().inverse().sum();
+}
+
+void
+OrthogonalProblem::dampSliding(PointTerms& terms) const
+{
+  constexpr double kLargestWeight = 1e-3;
+  const Eigen::Index count = positions_.cols();
+  const double distance =
+      std::sqrt(0.5 * terms.residual.squaredNorm() / costOf(1.0)); // of the extent
+  const double weight = std::min(kLargestWeight, damping_ * distance);
+  for (Eigen::Index k = 0; k < count; ++k)
+    terms.factors.middleCols(rowsPerPoint() * k + 1, rowsPerPoint() - 1) *=
+        std::sqrt(weight);
+}
+
+PointRows
+OrthogonalProblem::momentRows(const CellPoints& points,
+                              const PointTerms& terms,
+                              int channels) const
+{
+  PointRows rows;
+  rows.channels = channels;
+  const auto count = static_cast<Eigen::Index>(points.order.size());
+  rows.gram.resize(count, channels * (channels + 1) / 2);
+  rows.moments.resize(count, channels);
+  rows.squares.resize(count, 1);
+  const int r = rowsPerPoint();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int n = points.order[static_cast<std::size_t>(k)];
+    const auto factors = terms.factors.middleCols(r * n, r);
+    for (int a = 0, pair = 0; a < channels; ++a) {
+      rows.moments(k, a) = factors.row(a).dot(terms.residual.segment(r * n, r));
+      for (int b = a; b < channels; ++b, ++pair)
+        rows.gram(k, pair) = factors.row(a).dot(factors.row(b));
+    }
+    rows.squares(k, 0) = terms.cost(n);
+  }
+  return rows;
 }
 
 void
@@ -173,32 +231,38 @@ OrthogonalProblem::reduce(const Eigen::MatrixXd& unknowns,
                           std::vector<TriangularCell>& cells) const
 {
   const CellPoints points(knots_u_, knots_v_, parameters);
-  const int c = derivatives ? unknowns_.channels() : 0;
-  PointRows rows;
-  rows.channels = c;
-  rows.gram.resize(parameters.cols(), c * (c + 1) / 2);
-  rows.moments.resize(parameters.cols(), c);
-  rows.squares.resize(parameters.cols(), 1);
-  for (Eigen::Index k = 0; k < parameters.cols(); ++k) {
-    const int n = points.order[static_cast<std::size_t>(k)];
-    const int r = rowsPerPoint();
-    const auto factors = terms.factors.middleCols(r * n, r);
-    for (int a = 0, pair = 0; a < c; ++a) {
-      rows.moments(k, a) = factors.row(a).dot(terms.residual.segment(r * n, r));
-      for (int b = a; b < c; ++b, ++pair)
-        rows.gram(k, pair) = factors.row(a).dot(factors.row(b));
+  const int channels = unknowns_.channels();
+  const bool plain = derivatives && unknowns_.illConditioned();
+  PointRows rows = momentRows(points, terms, derivatives && !plain ? channels : 0);
+  if (plain) // the rows themselves carry the squares, a loss may cost more
+    for (Eigen::Index k = 0; k < rows.squares.size(); ++k) {
+      const int n = points.order[static_cast<std::size_t>(k)];
+      const double square = std::pow(terms.residual(rowsPerPoint() * n), 2);
+      rows.squares(k) = std::max(0.0, rows.squares(k) - square);
     }
-    rows.squares(k, 0) = terms.cost(n);
-  }
   std::vector<CellEquations> equations = reduceCells(points, rows, options_.threads);
-  if (options_.fairness > 0.0)
+  if (options_.fairness > 0.0) {
+    const Eigen::Index size =
+        channels * (points.cells_u.degree() + 1) * (points.cells_v.degree() + 1);
+    for (CellEquations& cell : equations)
+      if (plain) {
+        cell.gram.setZero(size, size);
+        cell.rhs.setZero(size, 1);
+      }
     addFairnessAround(points,
-                      {options_.fairness * static_cast<double>(parameters.cols()), 0.0},
+                      {options_.fairness * information_, 0.0},
                       unknowns,
                       derivatives,
                       equations);
+  }
   for (std::size_t cell = 0; cell < cells.size(); ++cell)
     cells[cell] = factorizeCell(equations[cell]);
+  if (!plain)
+    return;
+  const std::vector<TriangularCell> exact = reduceRows(
+      points, {rowsPerPoint(), terms.factors, terms.residual}, options_.threads);
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    cells[cell] = stackCells(exact[cell], cells[cell]);
 }
 
 void
@@ -211,6 +275,9 @@ OrthogonalProblem::linearize(const Eigen::MatrixXd& unknowns,
     Eigen::Matrix2Xd parameters = parameters_;
     PointTerms terms;
     evaluatePoints(surface, parameters, terms);
+    if (information_ ==
+        0.0) // of the start, for good: the cost must not change its mind
+      information_ = terms.factors.squaredNorm();
     reduce(unknowns, parameters, terms, derivatives, cells);
     if (derivatives)
       parameters_ = std::move(parameters);

@@ -25,6 +25,14 @@ public:
   virtual int
   channels() const = 0;
 
+  /** \brief Whether the points hardly determine some directions of the unknowns, so
+   * that the condition of the problem must not be squared. */
+  virtual bool
+  illConditioned() const
+  {
+    return false;
+  }
+
   /** \brief Surface of channels() x (control points) unknowns.
    * \throws std::invalid_argument or std::domain_error if there is none */
   virtual NurbsSurface
@@ -86,6 +94,12 @@ public:
     return weights_too_ ? 4 : 3;
   }
 
+  bool
+  illConditioned() const override
+  {
+    return weights_too_;
+  }
+
   NurbsSurface
   surface(const Eigen::MatrixXd& unknowns) const override;
 
@@ -107,7 +121,10 @@ private:
  *
  * A point inside gives one row, along the normal. With several unknowns per control
  * point the surface could also slide along itself, which no normal sees: two tangential
- * rows with a small weight and no residual damp that without moving the minimum. There
+ * rows with a small weight and no residual damp that without moving the minimum. Their
+ * weight falls with the distances (as the Levenberg-Marquardt parameter of Yamashita
+ * and Fukushima 2001 does), so that exact points are found at a fast rate although many
+ * surfaces solve the problem. There
  * the foot may also leave the domain, where the surface is extrapolated, so that the
  * problem stays smooth at the border; extendedDomain() then takes these feet in. */
 class OrthogonalProblem : public CellLinearizer {
@@ -129,6 +146,18 @@ public:
   linearize(const Eigen::MatrixXd& unknowns,
             bool derivatives,
             std::vector<TriangularCell>& cells) override;
+
+  /** \brief Weight of sliding relative to the distances left over the extent of the
+   * points; 1 at first. Less is faster where it does not overshoot. */
+  void
+  setDamping(double damping)
+  {
+    damping_ = damping;
+  }
+
+  /** \brief Cost of points that all are \a distance times their extent away. */
+  double
+  costOf(double distance) const;
 
   /** \brief Foot points at the last unknowns whose derivatives were asked for. */
   const Eigen::Matrix2Xd&
@@ -152,6 +181,12 @@ private:
                  PointTerms& terms) const;
 
   void
+  dampSliding(PointTerms& terms) const;
+
+  PointRows
+  momentRows(const CellPoints& points, const PointTerms& terms, int channels) const;
+
+  void
   reduce(const Eigen::MatrixXd& unknowns,
          const Eigen::Matrix2Xd& parameters,
          const PointTerms& terms,
@@ -165,6 +200,10 @@ private:
   Eigen::Matrix2Xd parameters_;
   const Eigen::VectorXd& sigma_;
   const SurfaceFitOptions& options_;
+  double damping_ = 1.0;
+  double information_ =
+      0.0;        // of all points on the unknowns, what fairness is relative to
+  double extent_; // diagonal of the points' box, metres
 };
 
 /** \brief The same surface over a domain that holds all parameters: the border spans

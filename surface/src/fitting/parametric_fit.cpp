@@ -228,7 +228,7 @@ fitParametric(const KnotVector& knots_u,
   return ParametricFit(knots_u, knots_v, split, options, constraints, weights).run();
 }
 
-std::pair<KnotVector, KnotVector>
+SurfaceKnots
 chooseParametricKnots(const FitPoints& points,
                       const KnotSearchOptions& options,
                       FitReport& report)
@@ -239,37 +239,10 @@ chooseParametricKnots(const FitPoints& points,
   return searchBinned(split.fitted.parameters,
                       split.fitted.positions.transpose(),
                       split.fitted.sigma,
+                      points.sigma.size() != 0,
                       options,
+                      nullptr,
                       report);
-}
-
-SurfaceFit
-fitRational(const NurbsSurface& start,
-            const FitPoints& points,
-            const SurfaceFitOptions& options)
-{
-  const SplitPoints split(points, options);
-  if (points.parameters.cols() == 0)
-    throw std::invalid_argument("rational fit: points need parameters");
-  const HomogeneousUnknowns unknowns(start, true);
-  OrthogonalProblem problem(unknowns,
-                            start,
-                            split.fitted.positions,
-                            split.fitted.parameters,
-                            split.fitted.sigma,
-                            options);
-  const CellPoints cells(start.knotsU(), start.knotsV(), split.fitted.parameters);
-  Eigen::MatrixXd values = start.homogeneousPoints();
-  SurfaceFit fit;
-  const CeresReport solved =
-      solveNonlinearCells(cells, problem, {}, ceresLimits(options), values);
-  fit.report.converged = solved.converged;
-  fit.report.iterations = solved.iterations;
-  fit.report.message = solved.usable ? "" : solved.message;
-  fit.parameters = problem.parameters();
-  fit.surface = extendedDomain(unknowns.surface(values), fit.parameters);
-  measureFit(split, options, fit);
-  return fit;
 }
 
 } // namespace nurbs

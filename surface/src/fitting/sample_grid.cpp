@@ -50,8 +50,11 @@ varianceAroundQuadratic(const SampleGrid& grid, const std::vector<int>& window)
   }
   const Eigen::MatrixXd residual =
       values - rows * rows.colPivHouseholderQr().solve(values);
-  return residual.squaredNorm() /
-         static_cast<double>((n - kTerms) * grid.values.cols());
+  const double freedom = static_cast<double>((n - kTerms) * grid.values.cols());
+  // So that the median of many is not too low (Wilson-Hilferty).
+  const double median_of_chi_squared =
+      freedom * std::pow(1.0 - 2.0 / (9.0 * freedom), 3);
+  return residual.squaredNorm() / median_of_chi_squared;
 }
 
 double

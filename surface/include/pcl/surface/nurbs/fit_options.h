@@ -53,6 +53,8 @@ enum class LinearSolver {
 struct KnotSearchOptions {
   ModelCriterion criterion = ModelCriterion::AICc;
   int max_degree = 5;             /**< highest degree tried, at most kMaxDegree */
+  int degree_u = 0;               /**< fixed degree in u; 0 means it is searched */
+  int degree_v = 0;               /**< the same for v */
   int max_control_points = 1024;  /**< largest net tried */
   int max_samples = 4096;         /**< points are binned to about so many samples */
   double points_per_sample = 1.0; /**< points in one patch of correlated noise: so many

@@ -15,6 +15,9 @@
 namespace pcl {
 namespace nurbs {
 
+/** \brief Knots of u and of v. */
+using SurfaceKnots = std::pair<KnotVector, KnotVector>;
+
 /** \brief Points to fit and what is known of them. */
 struct FitPoints {
   Eigen::Matrix3Xd positions;  /**< metres */
@@ -84,12 +87,15 @@ fitHeightField(const HeightFieldFrame& frame,
  * \param[in] points points
  * \param[in] options limits and criterion
  * \param[out] report criterion and remaining salient regions are set
+ * \param[in] start result of an earlier search over the same points to go on from; null
+ *            to begin with one bilinear span
  * \return knots of u and v over the box of the points' parameters */
-PCL_NURBS_SURFACE_EXPORT std::pair<KnotVector, KnotVector>
+PCL_NURBS_SURFACE_EXPORT SurfaceKnots
 chooseHeightFieldKnots(const HeightFieldFrame& frame,
                        const FitPoints& points,
                        const KnotSearchOptions& options,
-                       FitReport& report);
+                       FitReport& report,
+                       const SurfaceKnots* start = nullptr);
 
 /** \brief Fit all coordinates with given knots and parameters.
  * \param[in] knots_u knots of the first direction
@@ -107,7 +113,7 @@ fitParametric(const KnotVector& knots_u,
               const Eigen::VectorXd& weights = Eigen::VectorXd());
 
 /** \brief Degrees and knots for points with parameters, as for a scalar field. */
-PCL_NURBS_SURFACE_EXPORT std::pair<KnotVector, KnotVector>
+PCL_NURBS_SURFACE_EXPORT SurfaceKnots
 chooseParametricKnots(const FitPoints& points,
                       const KnotSearchOptions& options,
                       FitReport& report);

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "noise_bins.h"
+
+#include "grid_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+constexpr int kBins = 16;
+
+/** Gathers deviations of points from the line of their neighbours. */
+class NoiseSampler {
+public:
+  NoiseSampler(const GridPoints& points, float nearest, float farthest)
+      : points_(points),
+        camera_(points.geometry.projection == GridProjection::perspective),
+        inverse_(isInverseDepthGrid(points.geometry)),
+        nearest_(nearest),
+        scale_(kBins / std::max(farthest - nearest, 1e-6F)),
+        bins_(inverse_ ? kBins : 1)
+  {
+  }
+
+  std::vector<NoiseBin>
+  run()
+  {
+    constexpr std::size_t kSample = 100000;
+    const auto width = static_cast<std::size_t>(points_.geometry.width);
+    const auto height = static_cast<std::size_t>(points_.geometry.height);
+    const std::size_t stride = points_.size() / kSample + 1;
+    for (std::size_t row = 0; row < height; row += stride)
+      walk(row * width, 1, width, 0);
+    // A camera matches windows: its rows say all. The rings of a laser are aligned to
+    // each other less well than the pulses of a ring.
+    if (!camera_)
+      for (std::size_t column = 0; column < width; column += stride)
+        walk(column, width, height, 1);
+    return std::move(bins_);
+  }
+
+private:
+  void
+  walk(std::size_t first, std::size_t stride, std::size_t count, int direction)
+  {
+    const bool regular = camera_ && points_.geometry.max_gap == 1;
+    regular ? walkCamera(first, count) : walkSamples(first, stride, count, direction);
+  }
+
+  void
+  walkCamera(std::size_t first, std::size_t count)
+  {
+    constexpr std::size_t kStep = 4;
+    for (std::size_t i = first + kStep; i + kStep < first + count; ++i)
+      add(i, i - kStep, i + kStep, 0.5F, 0);
+  }
+
+  /** Triples of neighbours with the places they really have. */
+  void
+  walkSamples(std::size_t first, std::size_t stride, std::size_t count, int direction)
+  {
+    const auto gap = static_cast<std::size_t>(points_.geometry.max_gap);
+    std::array<Sample, 3> last; // the newest one at the end
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t cell = first + k * stride;
+      if (!points_.valid(cell))
+        continue;
+      last = {last[1], last[2], {cell, k, coordinate(cell, direction), true}};
+      if (!last[0].known || last[2].at - last[1].at > gap ||
+          last[1].at - last[0].at > gap)
+        continue;
+      const double whole = difference(last[0].where, last[2].where);
+      const double share = difference(last[0].where, last[1].where) / whole;
+      if (whole != 0.0 && share >= 0.0 && share <= 1.0)
+        add(last[1].cell,
+            last[0].cell,
+            last[2].cell,
+            static_cast<float>(share),
+            direction);
+    }
+  }
+
+  struct Sample {
+    std::size_t cell = 0;
+    std::size_t at = 0;
+    double where = 0.0;
+    bool known = false;
+  };
+
+  double
+  coordinate(std::size_t cell, int direction) const
+  {
+    if (points_.geometry.projection == GridProjection::lattice)
+      return static_cast<double>(
+          direction == 0 ? cell % static_cast<std::size_t>(points_.geometry.width)
+                         : cell / static_cast<std::size_t>(points_.geometry.width));
+    return points_.geometry.chart(points_.point(cell).cast<double>())(direction);
+  }
+
+  double
+  difference(double from, double to) const
+  {
+    return points_.geometry.wrap ? std::remainder(to - from, 2.0 * M_PI) : to - from;
+  }
+
+  /** Depth deviation of the middle of three samples from their common line; \a share is
+   * how far along the way it is. */
+  void
+  add(std::size_t middle,
+      std::size_t before,
+      std::size_t after,
+      float share,
+      int direction)
+  {
+    const float depth = points_.depth[middle];
+    const float a = points_.depth[before];
+    const float b = points_.depth[after];
+    const float bend =
+        inverse_ ? depth * depth * ((1.0F - share) / a - 1.0F / depth + share / b)
+                 : (1.0F - share) * a - depth + share * b;
+    if (std::isnan(bend))
+      return;
+    const float unit =
+        std::sqrt((1.0F - share) * (1.0F - share) + 1.0F + share * share);
+    const float where = (depth - nearest_) * scale_;
+    const float last = static_cast<float>(bins_.size()) - 1.0F;
+    NoiseBin& bin = bins_[static_cast<std::size_t>(std::clamp(where, 0.0F, last))];
+    bin.depths.push_back(depth);
+    bin.deviations[static_cast<std::size_t>(direction)].push_back(std::abs(bend) /
+                                                                  unit);
+    const float change = std::abs(points_.depth[middle + 1] - depth);
+    if (change > 0.0F)
+      bin.steps.push_back(change);
+    else if (change == 0.0F)
+      ++bin.ties;
+  }
+
+  const GridPoints& points_;
+  bool camera_;
+  bool inverse_;
+  float nearest_;
+  float scale_;
+  std::vector<NoiseBin> bins_;
+};
+
+} // namespace
+
+std::vector<NoiseBin>
+sampleNoise(const GridPoints& points, float nearest, float farthest)
+{
+  return NoiseSampler(points, nearest, farthest).run();
+}
+
+} // namespace nurbs
+} // namespace pcl
