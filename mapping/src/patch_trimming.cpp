@@ -89,8 +89,9 @@ private:
   {
     constexpr double kGrazing = 0.02;
     constexpr double kMostChange = 0.2; // of the range
-    if (geometry_.projection != GridProjection::perspective &&
-        geometry_.projection != GridProjection::spherical)
+    if (geometry_.projection == GridProjection::plane)
+      return below(lattice);
+    if (geometry_.projection == GridProjection::lattice)
       return foot;
     const SurfaceJet1 jet = surface_.fit.surface.evaluateJet1(foot.x(), foot.y());
     const Eigen::Vector3d normal = jet.du.cross(jet.dv).normalized();
@@ -102,6 +103,17 @@ private:
     if (std::abs(range - jet.position.norm()) > kMostChange * jet.position.norm())
       return foot;
     return surface_.frame.frame.toLocal(range * ray).head<2>();
+  }
+
+  /** (u, v) of a lattice position in a map, whose rays are all parallel to the heights.
+   */
+  Eigen::Vector2d
+  below(const Eigen::Vector2d& lattice) const
+  {
+    const Eigen::Vector3d chart(geometry_.first_u + lattice.x() * geometry_.step_u,
+                                geometry_.first_v + lattice.y() * geometry_.step_v,
+                                0.0);
+    return surface_.frame.frame.toLocal(geometry_.frame.transpose() * chart).head<2>();
   }
 
   const GridGeometry& geometry_;

@@ -58,16 +58,20 @@ chooseHeldOut(const GridPoints& points, int every)
 }
 
 /** Noise that even exact points are granted: what a surface of a moderate number of
- * control points can follow. */
+ * control points can follow. The median, as single coordinates may be wild. */
 double
 leastNoise(const GridPoints& points)
 {
   constexpr double kShare = 1e-5;
-  float largest = 0.0F;
+  std::vector<float> sizes;
   for (std::size_t cell = 0; cell < points.size(); ++cell)
     if (points.valid(cell))
-      largest = std::max(largest, points.point(cell).lpNorm<Eigen::Infinity>());
-  return kShare * static_cast<double>(largest);
+      sizes.push_back(points.point(cell).lpNorm<Eigen::Infinity>());
+  if (sizes.empty())
+    return 0.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return kShare * static_cast<double>(*middle);
 }
 
 void

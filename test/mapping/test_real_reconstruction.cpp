@@ -7,7 +7,6 @@
 #include <pcl/mapping/cloud_reader.h>
 #include <pcl/mapping/nurbs_reconstruction.h>
 #include <pcl/mapping/reconstruction_statistics.h>
-#include <pcl/surface/nurbs/differential_geometry.h>
 
 #include "data_files.h"
 #include "exact_mesh.h"
@@ -16,7 +15,7 @@
 
 #include <pcl/common/point_tests.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -163,13 +162,12 @@ TEST(RealReconstruction, knotLiesOnItsExactMesh)
       reconstructFile(folder / "depth_syn.png", options, reconstructor);
   EXPECT_GE(share, 0.85);
   std::ifstream stream(folder / "depth_syn_camera.json");
-  const auto values = nlohmann::json::parse(stream)["extrinsic"]
-                          .get<std::vector<std::vector<double>>>();
+  const auto columns = nlohmann::json::parse(stream).at("extrinsic");
   Eigen::Matrix4d extrinsic;
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row)
+  for (Eigen::Index column = 0; column < 4; ++column)
+    for (Eigen::Index row = 0; row < 4; ++row)
       extrinsic(row, column) =
-          values.at(static_cast<std::size_t>(column)).at(static_cast<std::size_t>(row));
+          columns.at(0).at(static_cast<std::size_t>(4 * column + row));
   const ExactMesh mesh(folder / "knot.ply", 0.01, Eigen::Affine3d(extrinsic));
   std::vector<double> distances;
   const Reconstruction& result = reconstructor.getReconstruction();
@@ -193,53 +191,67 @@ TEST(RealReconstruction, knotLiesOnItsExactMesh)
   EXPECT_LE(distances[distances.size() * 95 / 100], 0.004);
 }
 
-/** Radii of the post, row by row, from the curvature in the middle of the patch and
- * from its outline: the outermost rays touch the cylinder. */
+/** Radius of the circle through points (x, z), by linear least squares (Kasa). */
+double
+circleRadius(const std::vector<Eigen::Vector2d>& points)
+{
+  Eigen::MatrixX3d rows(static_cast<Eigen::Index>(points.size()), 3);
+  Eigen::VectorXd right(rows.rows());
+  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+    const Eigen::Vector2d& point = points[static_cast<std::size_t>(k)];
+    rows.row(k) << 2.0 * point.x(), 2.0 * point.y(), 1.0;
+    right(k) = point.squaredNorm();
+  }
+  const Eigen::Vector3d solution = rows.colPivHouseholderQr().solve(right);
+  return std::sqrt(solution.z() + solution.head<2>().squaredNorm());
+}
+
+double
+medianOf(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/** The post has the same radius at every height, by the circles that its surface makes
+ * with the rows of the image and by its outline, where the outermost rays touch it. */
 TEST(RealReconstruction, bollardIsACylinder)
 {
   PCL_NURBS_DATA_OR_SKIP(file, "redwood_bollard/01220_depth.png");
   Reconstructor reconstructor;
   EXPECT_GE(reconstructFile(file, {}, reconstructor), 0.9);
   const Reconstruction& result = reconstructor.getReconstruction();
-  const GridPoints points = pointsOf(reconstructor);
   const std::uint32_t post = result.labels[262 * 640 + 312];
   ASSERT_NE(post, 0U);
   const NurbsSurface& surface = result.model.patches[post - 1].geometry.surface();
-  std::vector<double> curved;
-  std::vector<double> outlined;
+  std::vector<double> circles;
+  std::vector<double> outlines;
   for (int row = 130; row < 380; ++row) {
-    int first = 640;
-    int last = 0;
+    std::vector<Eigen::Vector2d> slice;
+    std::vector<int> columns;
     for (int column = 0; column < 640; ++column)
       if (result.labels[static_cast<std::size_t>(row * 640 + column)] == post) {
-        first = std::min(first, column);
-        last = std::max(last, column);
+        const Eigen::Vector3d point = surface.evaluate(column, row);
+        slice.emplace_back(point.x(), point.z());
+        columns.push_back(column);
       }
-    ASSERT_LT(first, last) << row;
-    const double middle = 0.5 * (first + last);
-    const SurfaceCurvature bend = curvature(surface, middle, row);
-    curved.push_back(1.0 / std::max(std::abs(bend.maximum), std::abs(bend.minimum)));
-    const double nearest = surface.evaluate(middle, row).z();
-    const double slope = 0.5 * (last - first + 1) / 525.0;
+    ASSERT_GT(slice.size(), 20U) << row;
+    circles.push_back(circleRadius(slice));
+    const double slope = 0.5 * (columns.back() - columns.front() + 1) / 525.0;
     const double sine = slope / std::hypot(1.0, slope);
-    outlined.push_back(nearest * sine / (1.0 - sine));
+    outlines.push_back(slice[slice.size() / 2].y() * sine / (1.0 - sine));
   }
-  const auto median = [](std::vector<double> values) {
-    std::nth_element(values.begin(),
-                     values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-  };
-  const auto half = static_cast<std::ptrdiff_t>(curved.size() / 2);
-  const double upper = median({curved.begin(), curved.begin() + half});
-  const double lower = median({curved.begin() + half, curved.end()});
-  const double outline = median(outlined);
+  const auto half = static_cast<std::ptrdiff_t>(circles.size() / 2);
+  const double upper = medianOf({circles.begin(), circles.begin() + half});
+  const double lower = medianOf({circles.begin() + half, circles.end()});
+  const double outline = medianOf(outlines);
   std::printf("bollard: radius %.4f m above, %.4f m below, outline %.4f m\n",
               upper,
               lower,
               outline);
-  EXPECT_NEAR(upper / lower, 1.0, 0.2);
-  EXPECT_NEAR(median(curved) / outline, 1.0, 0.2);
+  EXPECT_NEAR(upper / lower, 1.0, 0.15);
+  EXPECT_NEAR(medianOf(circles) / outline, 1.0, 0.15);
 }
 
 } // namespace

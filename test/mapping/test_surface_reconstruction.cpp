@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace {
 
@@ -50,6 +51,20 @@ TEST(SurfaceReconstruction, exactPointsNeedNoNoise)
   const Reconstruction result =
       reconstructSurfaces(points, oneSegment(points), constantNoise(0.0));
   EXPECT_GT(coverage(result), 0.95);
+}
+
+/** What is granted to all must not follow from one point. */
+TEST(SurfaceReconstruction, wildCoordinatesHarmNobodyElse)
+{
+  const auto wild = [](int column, int row) {
+    return column == 3 && row % 7 == 0 ? 3e37 : tilted(column, row);
+  };
+  const GridPoints points = noisyView(wild, 0.002);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.002));
+  ASSERT_GE(result.model.patches.size(), 1U);
+  EXPECT_LE(result.model.patches.front().quality.rmse, 0.003);
+  EXPECT_NEAR(result.model.patches.front().quality.noise, 0.002, 1e-9);
 }
 
 TEST(SurfaceReconstruction, everyPatchHoldsItsOwnPoints)
@@ -113,6 +128,32 @@ TEST(SurfaceReconstruction, closedScanHoldsItsOwnPoints)
       reconstructSurfaces(points, oneSegment(points), constantNoise(0.01));
   EXPECT_GT(coverage(result), 0.9);
   EXPECT_GE(checkOwnPoints(points, result, 3).inside, 0.98);
+}
+
+/** A terrain seen from above, its points anywhere in their cells. */
+TEST(SurfaceReconstruction, scatteredMapHoldsItsOwnPoints)
+{
+  GridGeometry map;
+  map.projection = GridProjection::plane;
+  map.frame = GridGeometry::mapFrame();
+  map.width = 90;
+  map.height = 70;
+  map.step_u = map.step_v = 0.5;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-0.24, 0.24);
+  PointCloud<PointXYZ> cloud(90, 70);
+  for (int row = 0; row < 70; ++row)
+    for (int column = 0; column < 90; ++column) {
+      const double x = 0.5 * column + shift(random);
+      const double y = -0.5 * row + shift(random);
+      const double z = 3.0 * std::sin(0.1 * x) + 0.1 * y;
+      cloud(column, row) = PointXYZ(float(x), float(y), float(z));
+    }
+  const GridPoints points = toGridPoints(cloud, map);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.02));
+  EXPECT_GT(coverage(result), 0.95);
+  EXPECT_GE(checkOwnPoints(points, result, 1).inside, 0.97);
 }
 
 TEST(SurfaceReconstruction, heldOutPointsAreOnlyMeasured)
