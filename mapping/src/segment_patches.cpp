@@ -43,7 +43,9 @@ public:
       const int depth = task.depth + (added ? 1 : kDepthOfHalves);
       if (depth > kMostDepth || rest.empty())
         continue;
-      for (CellSet& part : added ? connectedParts(input_.points.geometry, rest, waiting_) : halves(rest))
+      for (CellSet& part : added
+                               ? connectedParts(input_.points.geometry, rest, waiting_)
+                               : halves(rest))
         tasks.push_back({std::move(part), depth});
     }
     return std::move(result_);

@@ -102,7 +102,7 @@ PlanarTriangulation::addConstraint(int a, int b, const EdgeCounts& counts)
 {
   std::vector<Constraint> pending = {{a, b, counts}};
   // Rounded crossings may cross again; each time the pieces are shorter.
-  std::size_t budget = 64 * static_cast<std::size_t>(numVertices()) + 1024;
+  std::size_t budget = 4096 * static_cast<std::size_t>(numVertices()) + 65536;
   while (!pending.empty()) {
     if (budget-- == 0)
       throw std::domain_error("PlanarTriangulation: edges cross without end");

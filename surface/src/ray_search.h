@@ -62,7 +62,7 @@ private:
   double length_;             // of the direction given; inside, t is a length
   Eigen::Vector3d direction_; // unit
   double base_t_;
-  Eigen::Vector3d base_; // point of the line next to the surface
+  Eigen::Vector3d base_;               // point of the line next to the surface
   Eigen::Matrix<double, 2, 3> across_; // unit vectors normal to the ray
   double t_min_;
   double t_max_;

@@ -73,8 +73,8 @@ struct SurfaceFitOptions {
   double tolerance = 1e-6; /**< relative decrease of the cost that ends iterations */
   int hold_out_every = 0;  /**< every so-manieth point is only measured, never fitted */
   LinearSolver linear_solver = LinearSolver::Auto;
-  bool measure = true;      /**< fill in the distances of the report; without, a fit of
-                                 many points takes about half the time */
+  bool measure = true; /**< fill in the distances of the report; without, a fit of
+                            many points takes about half the time */
   int threads = 1;
 };
 
