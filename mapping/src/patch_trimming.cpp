@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace pcl {
@@ -64,22 +65,28 @@ private:
     return window_.mask.at(place.x(), place.y()) ? position_[window_.index(place)] : -1;
   }
 
-  /** Mean over the member cells around a corner of where the ray through the corner
-   * meets the tangent plane of the surface at each of them. */
+  /** Mean over the nearest member cells around a corner of where the ray through the
+   * corner meets the tangent plane of the surface at each of them. Where gaps between
+   * samples are closed, these need not be next to the corner. */
   Eigen::Vector2d
   fromCells(const Eigen::Vector2i& corner, const Eigen::Vector2d& lattice) const
   {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    int count = 0;
-    for (int dr : {-1, 0})
-      for (int dc : {-1, 0}) {
-        const int cell = cellAt(corner + Eigen::Vector2i(dc, dr));
-        if (cell < 0)
-          continue;
-        sum += onRay(surface_.parameters.col(cell), lattice);
-        ++count;
-      }
-    return count > 0 ? Eigen::Vector2d(sum / count) : sum;
+    const int farthest = std::max(window_.mask.width, window_.mask.height);
+    for (int away = 0; away <= farthest; ++away) {
+      Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+      int count = 0;
+      for (int dr = -1 - away; dr <= away; ++dr)
+        for (int dc = -1 - away; dc <= away; ++dc) {
+          const int cell = cellAt(corner + Eigen::Vector2i(dc, dr));
+          if (cell < 0)
+            continue;
+          sum += onRay(surface_.parameters.col(cell), lattice);
+          ++count;
+        }
+      if (count > 0)
+        return sum / count;
+    }
+    throw std::logic_error("trimming: the mask has no member cell");
   }
 
   /** (u, v) where the ray through a lattice position meets the tangent plane at a foot

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -18,7 +19,10 @@ HeightFieldFrame::HeightFieldFrame()
 
 HeightFieldFrame::HeightFieldFrame(const Eigen::Matrix4d& matrix) : matrix_(matrix)
 {
-  const Eigen::FullPivLU<Eigen::Matrix4d> lu(matrix);
+  // A pose far from the origin has entries of very different size but is no less
+  // invertible: only a pivot of zero counts.
+  Eigen::FullPivLU<Eigen::Matrix4d> lu(matrix);
+  lu.setThreshold(std::numeric_limits<double>::min());
   if (!matrix.allFinite() || !lu.isInvertible())
     throw std::invalid_argument("HeightFieldFrame: the frame is singular");
   inverse_ = lu.inverse();
