@@ -275,9 +275,10 @@ OrthogonalProblem::linearize(const Eigen::MatrixXd& unknowns,
     Eigen::Matrix2Xd parameters = parameters_;
     PointTerms terms;
     evaluatePoints(surface, parameters, terms);
-    if (information_ ==
-        0.0) // of the start, for good: the cost must not change its mind
+    if (start_.size() == 0) { // for good: the cost must not change its mind
       information_ = terms.factors.squaredNorm();
+      start_ = unknowns;
+    }
     reduce(unknowns, parameters, terms, derivatives, cells);
     if (derivatives)
       parameters_ = std::move(parameters);
