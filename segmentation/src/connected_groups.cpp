@@ -148,6 +148,8 @@ requireValid(const GridPoints& points,
   if (!(options.min_weight > 0.0F) || !(options.jump_sigmas > 0.0F) ||
       !(options.crease_angle > 0.0F))
     throw std::invalid_argument("connectedGroups: thresholds must be positive");
+  if (options.threads < 1)
+    throw std::invalid_argument("connectedGroups: there must be a thread");
 }
 
 } // namespace
@@ -170,11 +172,8 @@ connectedGroups(const GridPoints& points,
   }
   // Where a fold runs into a jump both grow faint: holding groups back from either
   // keeps them from leaking through.
-  const std::vector<std::uint8_t> fold =
-      nearBreaks(points.geometry,
-                 edges,
-                 findCreases(points, edges, noise, options.crease_angle),
-                 kHeldBack);
+  const std::vector<std::uint8_t> fold = nearBreaks(
+      points.geometry, edges, findCreases(points, edges, noise, options), kHeldBack);
   const auto smooth = [&](std::size_t i) { return points.valid(i) && fold[i] == 0; };
   std::uint32_t count = labelGroups(edges, options.min_size, smooth, 0, labels);
   shareFolds(edges, fold, labels);

@@ -8,7 +8,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace pcl {
 namespace nurbs {
@@ -158,20 +160,25 @@ excessTurn(const Vectors& normals, const Run& run, int k, int half, float enough
 } // namespace
 
 Vectors
-gridNormals(const GridPoints& points, const KeptEdges& edges, const SensorNoise& noise)
+gridNormals(const GridPoints& points,
+            const KeptEdges& edges,
+            const SensorNoise& noise,
+            int threads)
 {
-  const Window along_row(points, noise, GridGraph::kRight);
-  const Window along_column(points, noise, GridGraph::kDown);
-  const Vectors rows = smoothed(tangents(points, edges, along_row, GridGraph::kRight),
-                                edges,
-                                along_column,
-                                GridGraph::kDown);
-  Vectors normals = smoothed(tangents(points, edges, along_column, GridGraph::kDown),
-                             edges,
-                             along_row,
-                             GridGraph::kRight);
+  constexpr std::array<int, 2> directions = {GridGraph::kRight, GridGraph::kDown};
+  const std::array<Window, 2> windows = {Window(points, noise, directions[0]),
+                                         Window(points, noise, directions[1])};
+  std::array<Vectors, 2> slopes;
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+  for (std::size_t k = 0; k < 2; ++k)
+    slopes[k] = smoothed(tangents(points, edges, windows[k], directions[k]),
+                         edges,
+                         windows[1 - k],
+                         directions[1 - k]);
+  Vectors normals = std::move(slopes[1]);
+#pragma omp parallel for num_threads(threads)
   for (std::size_t i = 0; i < normals.size(); ++i)
-    normals[i] = normals[i].cross(rows[i]).eval().normalized();
+    normals[i] = normals[i].cross(slopes[0][i]).eval().normalized();
   return normals;
 }
 
@@ -179,12 +186,16 @@ std::vector<std::uint8_t>
 findCreases(const GridPoints& points,
             const KeptEdges& edges,
             const SensorNoise& noise,
-            float angle)
+            const ConnectedGroupsOptions& options)
 {
-  const Vectors normals = gridNormals(points, edges, noise);
-  const float chord = 2.0F * std::sin(0.5F * angle);
-  std::vector<std::uint8_t> crease(points.size(), 0);
-  for (const int direction : {GridGraph::kRight, GridGraph::kDown}) {
+  const Vectors normals = gridNormals(points, edges, noise, options.threads);
+  const float chord = 2.0F * std::sin(0.5F * options.crease_angle);
+  std::array<std::vector<std::uint8_t>, 2> marks;
+#pragma omp parallel for schedule(static, 1) num_threads(options.threads)
+  for (std::size_t m = 0; m < 2; ++m) {
+    const int direction = m == 0 ? GridGraph::kRight : GridGraph::kDown;
+    std::vector<std::uint8_t>& crease = marks[m];
+    crease.assign(points.size(), 0);
     const Window window(points, noise, direction);
     edges.forEachRun(direction, [&](const Run& run) {
       for (std::size_t k = 0; k < run.size(); ++k)
@@ -194,7 +205,9 @@ findCreases(const GridPoints& points,
           crease[run[k]] = 1;
     });
   }
-  return crease;
+  for (std::size_t i = 0; i < marks[0].size(); ++i)
+    marks[0][i] |= marks[1][i];
+  return std::move(marks[0]);
 }
 
 std::vector<std::uint8_t>

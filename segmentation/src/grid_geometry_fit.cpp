@@ -218,34 +218,38 @@ fitLattice(const PointList& points, GridGeometry grid)
 } // namespace
 
 GridGeometry
-estimateGridGeometry(const PointList& points, int width, int height)
+estimateGridGeometry(const PointList& points, int width, int height, int threads)
 {
   if (width < 1 || height < 1 ||
       points.size() !=
           static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
     throw std::invalid_argument("estimateGridGeometry: not width times height points");
+  if (threads < 1)
+    throw std::invalid_argument("estimateGridGeometry: there must be a thread");
   constexpr double kAccepted = 0.5;
   GridGeometry empty;
   empty.width = width;
   empty.height = height;
-  GridGeometry best;
-  double least = kAccepted;
+  std::vector<GridGeometry> grids;
   for (const GridProjection projection :
        {GridProjection::perspective, GridProjection::spherical, GridProjection::plane})
     for (const Eigen::Matrix3d& frame : {GridGeometry::cameraFrame(),
                                          GridGeometry::vehicleFrame(),
                                          GridGeometry::mapFrame()}) {
-      GridGeometry grid = empty;
-      grid.projection = projection;
-      grid.frame = frame;
-      Candidate candidate(points, grid);
-      const double residual = candidate.fit();
-      if (residual < least) {
-        least = residual;
-        best = candidate.grid();
-      }
+      grids.push_back(empty);
+      grids.back().projection = projection;
+      grids.back().frame = frame;
     }
-  return least < kAccepted ? best : fitLattice(points, empty);
+  std::vector<double> residuals(grids.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t k = 0; k < grids.size(); ++k) {
+    Candidate candidate(points, grids[k]);
+    residuals[k] = candidate.fit();
+    grids[k] = candidate.grid();
+  }
+  const auto least = std::min_element(residuals.begin(), residuals.end());
+  return *least < kAccepted ? grids[static_cast<std::size_t>(least - residuals.begin())]
+                            : fitLattice(points, empty);
 }
 
 } // namespace nurbs

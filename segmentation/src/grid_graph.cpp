@@ -52,6 +52,8 @@ requireValid(const GridPoints& points, const GridGraphOptions& options)
     throw std::invalid_argument("GridGraph: connectivity must be 4 or 8");
   if (!(options.incidence_cap >= 1.0F))
     throw std::invalid_argument("GridGraph: the incidence cap must be at least 1");
+  if (options.threads < 1)
+    throw std::invalid_argument("GridGraph: there must be a thread");
   if (points.geometry.max_gap < 1)
     throw std::invalid_argument("GridGraph: the gap must be at least 1");
   if (points.geometry.wrap && points.geometry.width <= 2 * points.geometry.max_gap)
@@ -73,6 +75,7 @@ GridGraph::build(const GridPoints& points,
     const auto sigma = static_cast<float>(noise.sigma(points.depth[i]));
     noise_variance[i] = sigma * sigma;
   }
+#pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
   for (int d = 0; d < directions_; ++d) {
     findEdges(points, d);
     expectDistances(points, noise_variance, options.incidence_cap, d);

@@ -93,6 +93,7 @@ KeptEdges::KeptEdges(const GridPoints& points,
     for (const float depth : points.depth)
       inverse_depth.push_back(1.0F / depth);
   }
+#pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
   for (int d = 0; d < graph.numDirections(); ++d) {
     std::vector<std::uint8_t>& kept = kept_[static_cast<std::size_t>(d)];
     kept.assign(graph.numCells(), 0);

@@ -242,4 +242,27 @@ TEST(ConnectedGroups, refusesForeignGraphs)
                std::invalid_argument);
 }
 
+TEST(ConnectedGroups, anyNumberOfThreadsGivesTheSame)
+{
+  const GridGeometry grid = GridGeometry::pinhole(200, 150, {170.0, 170.0, 99.5, 74.5});
+  std::mt19937 random(9);
+  std::normal_distribution<double> noise(0.0, 0.002);
+  const Cloud cloud = cameraCloud(grid, [&](int column, int row) {
+    const double box = column > 60 && column < 120 && row > 40 ? -0.4 : 0.0;
+    return 2.0 + box + 0.004 * std::abs(column - 150) + noise(random);
+  });
+  std::vector<std::uint32_t> one;
+  for (const unsigned int threads : {1U, 2U, 4U}) {
+    ConnectedGroupsSegmentation<PointXYZ> segmentation;
+    segmentation.setInputCloud(cloud.makeShared());
+    segmentation.setNumberOfThreads(threads);
+    std::vector<PointIndices> segments;
+    segmentation.segment(segments);
+    EXPECT_GE(segments.size(), 2U);
+    if (threads == 1)
+      one = segmentation.getLabels();
+    EXPECT_EQ(segmentation.getLabels(), one);
+  }
+}
+
 } // namespace

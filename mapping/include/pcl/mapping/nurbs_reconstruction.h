@@ -10,6 +10,7 @@
 #include <pcl/pcl_base.h>
 #include <pcl/point_cloud.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -140,6 +141,12 @@ public:
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 
 private:
+  unsigned int
+  numberOfThreads() const
+  {
+    return static_cast<unsigned int>(std::max(options_.threads, 1));
+  }
+
   bool
   organize();
 

@@ -55,6 +55,13 @@ public:
     return projection_;
   }
 
+  /** \brief Number of threads (default 1); the result does not depend on it. */
+  void
+  setNumberOfThreads(unsigned int threads)
+  {
+    threads_ = threads;
+  }
+
   /** \brief Organize the input cloud (its indices, when set).
    * \param[out] output organized cloud, not dense; empty on failure
    * \return whether there was a finite point to organize
@@ -94,6 +101,7 @@ private:
   layOut();
 
   Projection projection_ = AUTO;
+  unsigned int threads_ = 1;
   nurbs::GridLayout layout_;
 };
 

@@ -25,6 +25,8 @@ struct ConnectedGroupsOptions {
   float crease_angle = 0.5F;
   /** Groups of fewer points are dropped. */
   std::size_t min_size = 100;
+  /** Number of threads; the result does not depend on it. */
+  int threads = 1;
 };
 
 /** \brief Group the points of a grid into connected sheets.
@@ -35,7 +37,7 @@ struct ConnectedGroupsOptions {
  * (2) Normals from line fits along rows and columns that never cross a removed edge,
  * over windows just wide enough for the noise; points on a fold are set aside.
  * (3) Union-find over what is left; then the folds are shared out among the groups they
- * touch. O(cells), one thread, the same result for the same input.
+ * touch. O(cells), the same result for the same input.
  *
  * \param[in] points organized points
  * \param[in] graph their graph, with weights

@@ -22,6 +22,8 @@ struct GridGraphOptions {
   /** A surface seen at grazing angle has neighbours farther apart than one that faces
    * the sensor; their distance is expected to grow up to this many times. */
   float incidence_cap = 20.0F;
+  /** Number of threads; the result does not depend on it. */
+  int threads = 1;
 };
 
 /** \brief Weight of paper and default: exp(-|p_i - p_j|^2 / (2 sigma_ij^2)). */

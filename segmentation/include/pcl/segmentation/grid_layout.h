@@ -32,10 +32,11 @@ struct GridLayout {
  * \param[in] points width times height points, row by row; NaN = none
  * \param[in] width number of columns
  * \param[in] height number of rows
- * \throws std::invalid_argument when sizes disagree
+ * \param[in] threads number of threads; the result does not depend on it
+ * \throws std::invalid_argument when sizes disagree or there is no thread
  */
 PCL_NURBS_SEGMENTATION_EXPORT GridGeometry
-estimateGridGeometry(const PointList& points, int width, int height);
+estimateGridGeometry(const PointList& points, int width, int height, int threads = 1);
 
 /** \brief Give scattered points a grid.
  *

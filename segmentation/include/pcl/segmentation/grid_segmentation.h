@@ -10,6 +10,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -62,6 +63,19 @@ public:
   getGraphOptions() const
   {
     return graph_options_;
+  }
+
+  /** \brief Number of threads (default 1); the result does not depend on it. */
+  void
+  setNumberOfThreads(unsigned int threads)
+  {
+    graph_options_.threads = static_cast<int>(std::max(threads, 1U));
+  }
+
+  unsigned int
+  getNumberOfThreads() const
+  {
+    return static_cast<unsigned int>(graph_options_.threads);
   }
 
   /** \brief Smaller segments are dropped (points). */

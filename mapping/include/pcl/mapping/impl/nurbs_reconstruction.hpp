@@ -79,6 +79,7 @@ NurbsReconstruction<PointT>::organize()
     if (indices_)
       organizer.setIndices(indices_);
     organizer.setProjection(projection_);
+    organizer.setNumberOfThreads(numberOfThreads());
     if (!organizer.organize(*organized_))
       return false;
     used_geometry_ = geometry_ ? *geometry_ : organizer.getGeometry();
@@ -96,6 +97,7 @@ NurbsReconstruction<PointT>::segment()
   if (!segmentation)
     segmentation.reset(new ConnectedGroupsSegmentation<PointT>);
   segmentation->setInputCloud(organized_);
+  segmentation->setNumberOfThreads(numberOfThreads());
   segmentation->setGeometry(used_geometry_);
   if (noise_)
     segmentation->setSensorNoise(*noise_);

@@ -64,8 +64,11 @@ CloudOrganizer<PointT>::passThrough()
     points[i] = (*input_)[i].getVector3fMap();
     layout_.cell_point[i] = index;
   }
-  layout_.geometry = nurbs::estimateGridGeometry(
-      points, static_cast<int>(input_->width), static_cast<int>(input_->height));
+  layout_.geometry =
+      nurbs::estimateGridGeometry(points,
+                                  static_cast<int>(input_->width),
+                                  static_cast<int>(input_->height),
+                                  static_cast<int>(std::max(threads_, 1U)));
 }
 
 template <typename PointT>

@@ -56,7 +56,8 @@ GridSegmentation<PointT>::gatherPoints() const
                         ? *geometry_
                         : nurbs::estimateGridGeometry(list,
                                                       static_cast<int>(input_->width),
-                                                      static_cast<int>(input_->height));
+                                                      static_cast<int>(input_->height),
+                                                      graph_options_.threads);
   points.x.reserve(list.size());
   points.y.reserve(list.size());
   points.z.reserve(list.size());
@@ -116,6 +117,7 @@ ConnectedGroupsSegmentation<PointT>::performSegmentation(
 {
   nurbs::ConnectedGroupsOptions options = options_;
   options.min_size = this->getMinSegmentSize();
+  options.threads = static_cast<int>(this->getNumberOfThreads());
   return nurbs::connectedGroups(points, graph, noise, options, labels);
 }
 
