@@ -3,6 +3,8 @@
 
 #include "segment_fitting.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -170,6 +172,17 @@ fitInFrame(const ReconstructionInput& input,
   return true;
 }
 
+/** Whether points lie along a line up to their noise: any surface through it fits. */
+bool
+areALine(const FitPoints& points)
+{
+  const Eigen::Vector3d mean = points.positions.rowwise().mean();
+  const Eigen::Matrix3Xd centred = points.positions.colwise() - mean;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+      centred * centred.transpose(), Eigen::EigenvaluesOnly);
+  return !(solver.eigenvalues()(1) > points.sigma.squaredNorm());
+}
+
 } // namespace
 
 double
@@ -191,7 +204,7 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
 {
   constexpr double kGoodEnough = 0.9;
   const FitPoints fitted = gather(input, cells, false);
-  if (fitted.positions.cols() == 0)
+  if (fitted.positions.cols() == 0 || areALine(fitted))
     return false;
   const FitPoints all = gather(input, cells, true);
   bool found = false;

@@ -57,7 +57,7 @@ struct ReconstructionInput {
  * \param[in] input the cloud
  * \param[in] cells at least one cell that is not held out
  * \param[out] surface the fit
- * \return false if no frame gave a surface */
+ * \return false if the cells are a mere line or no frame gave a surface */
 bool
 fitCells(const ReconstructionInput& input,
          const CellSet& cells,

@@ -64,6 +64,10 @@ TEST(NurbsReconstruction, cloudsWithoutSurfacesAreRefused)
   expectRefused(scattered(std::vector<Eigen::Vector3f>(500, {1.0F, 2.0F, 3.0F})));
   expectRefused(scattered(std::vector<Eigen::Vector3f>(500, {0.0F, 0.0F, 0.0F})));
   expectRefused(scattered(std::vector<Eigen::Vector3f>(500, {kNan, kNan, kNan})));
+  std::vector<Eigen::Vector3f> line;
+  for (int k = 0; k < 2000; ++k)
+    line.emplace_back(1.0F + 0.01F * static_cast<float>(k), 2.0F, 3.0F);
+  expectRefused(scattered(line));
   Cloud::Ptr organized(new Cloud(30, 20, PointXYZ(kNan, kNan, kNan)));
   expectRefused(organized);
 }

@@ -212,7 +212,7 @@ class Usage(ToolTest):
                 ["in.pcd", "--intrinsics", "1,2,3"], ["in.pcd", "--intrinsics", "0,1,2,3"],
                 ["in.pcd", "--size", "9x9"], ["in.pcd", "--size", "big"],
                 ["in.pcd", "--shade", "red"], ["in.pcd", "--view", "1,2,3"],
-                ["in.pcd", "--obj", "cube"], ["in.pcd", "--mesh-tolerance", "0"],
+                ["in.pcd", "--obj", "cube"], ["in.pcd", "--mesh-tolerance=-1"],
                 ["in.pcd", "--bin-values", "5"], ["in.pcd", "--depth-scale", "0"],
                 ["in.pcd", "--correlation", "0.5"], ["in.pcd", "--max-control-points", "3"],
                 ["in.pcd", "--quiet", "--quiet"], ["--demo", "in.pcd"]):

@@ -111,8 +111,9 @@ class Degenerate(ToolTest):
 
     def test_lines_and_repeated_points(self):
         line = [(1.0 + 0.01 * k, 2.0, 3.0) for k in range(3000)]
-        self.run_any(line)
-        self.run_any(line, "--projection", "plane")
+        self.write("line.ply", ply(line))
+        for projection in ("auto", "plane", "spherical"):
+            self.fail_with(3, "line.ply", "o.nurbs", "--projection", projection)
         self.run_any([(x, y, z) for x, y, z in wave() for _ in range(3)])
         self.run_any([(0.001 * math.floor(1000 * k / 7), 0.0, 1.0) for k in range(5000)])
 

@@ -100,11 +100,11 @@ addOutputOptions(Settings& settings,
       po::bool_switch(&settings.output.nurbs.lossless),
       "keep every bit in .nurbs files")(
       "mesh-tolerance",
-      po::value(&settings.output.mesh_tolerance)->default_value(1e-3, "0.001"),
-      "largest distance of mesh and surface, metres")(
-      "obj",
-      po::value(&raw.obj)->default_value("mesh"),
-      "content of .obj files: mesh or rational")(
+      po::value(&settings.output.mesh_tolerance)->default_value(0.0, "0"),
+      "largest distance of mesh and surface, metres; 0: half of what the points are "
+      "off")("obj",
+             po::value(&raw.obj)->default_value("mesh"),
+             "content of .obj files: mesh or rational")(
       "shade",
       po::value(&settings.picture.shade)->default_value("patch"),
       "colours of .png files: patch, normal, curvature, deviation")(

@@ -31,9 +31,9 @@ validateRanges(const Settings& settings)
   require(settings.read.bin_values_per_point == 3 ||
               settings.read.bin_values_per_point == 4,
           "--bin-values must be 3 or 4");
-  require(settings.output.mesh_tolerance > 0.0 &&
+  require(settings.output.mesh_tolerance >= 0.0 &&
               std::isfinite(settings.output.mesh_tolerance),
-          "--mesh-tolerance must be above 0");
+          "--mesh-tolerance must not be negative");
   require(fit.tolerance >= 0.0 && std::isfinite(fit.tolerance),
           "--tolerance must not be negative");
   require(fit.knots.max_degree >= 1 && fit.knots.max_degree <= pcl::nurbs::kMaxDegree,

@@ -10,8 +10,11 @@
 #include <pcl/surface/nurbs/obj_io.h>
 #include <pcl/surface/nurbs/tessellation.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -22,7 +25,9 @@ pcl::nurbs::TriangleMesh
 mesh(const pcl::nurbs::SurfaceModel& model, const SurfaceOutputOptions& options)
 {
   pcl::nurbs::TessellationOptions tessellation;
-  tessellation.chord_tolerance = options.mesh_tolerance;
+  tessellation.chord_tolerance = options.mesh_tolerance > 0.0
+                                     ? options.mesh_tolerance
+                                     : suitableMeshTolerance(model);
   return pcl::nurbs::tessellate(model, tessellation);
 }
 
@@ -44,6 +49,27 @@ extensionOf(const std::string& path)
                  extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
+}
+
+double
+suitableMeshTolerance(const pcl::nurbs::SurfaceModel& model)
+{
+  Eigen::AlignedBox3d box;
+  double squares = 0.0;
+  double points = 0.0;
+  for (const pcl::nurbs::SurfacePatch& patch : model.patches) {
+    const auto count = static_cast<double>(patch.quality.points);
+    squares += count * patch.quality.rmse * patch.quality.rmse;
+    points += count;
+    for (const pcl::nurbs::TrimLoop& loop : patch.geometry.loops())
+      for (const pcl::nurbs::NurbsCurve2& curve : loop.curves())
+        for (const double t : curve.knots().breaks()) {
+          const Eigen::Vector2d uv = curve.evaluate(t);
+          box.extend(patch.geometry.surface().evaluate(uv.x(), uv.y()));
+        }
+  }
+  const double distance = points > 0.0 ? std::sqrt(squares / points) : 0.0;
+  return std::max(0.5 * distance, box.diagonal().norm() / 20000.0);
 }
 
 void

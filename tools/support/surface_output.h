@@ -15,8 +15,8 @@ namespace pcl_nurbs_tools {
 /** How a model is written to files whose extension names the format. */
 struct SurfaceOutputOptions {
   pcl::nurbs::NurbsFileOptions nurbs;
-  double mesh_tolerance = 1e-3; /**< chord tolerance of meshes, metres */
-  bool obj_rational = false;    /**< .obj holds rational surfaces, not a mesh */
+  double mesh_tolerance = 0.0; /**< chord tolerance of meshes, metres; 0: what suits */
+  bool obj_rational = false;   /**< .obj holds rational surfaces, not a mesh */
 };
 
 /** Extensions that writeSurfaces() knows, with the dot. */
@@ -26,6 +26,12 @@ surfaceExtensions();
 /** Extension of a path in lower case, with the dot. */
 std::string
 extensionOf(const std::string& path);
+
+/** Chord tolerance that loses nothing: half of the points' distances from their
+ * patches, but no less than 1/20000 of the model's size, which no picture would show.
+ */
+double
+suitableMeshTolerance(const pcl::nurbs::SurfaceModel& model);
 
 /** Write a model; the format follows from the extension, one of surfaceExtensions().
  * \throws ToolError(kCannotWrite) naming file and reason */

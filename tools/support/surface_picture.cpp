@@ -99,22 +99,40 @@ chooseCamera(const pcl::nurbs::GridPoints& points,
                         static_cast<double>(options.width) / options.height);
 }
 
-/** Triangles with an edge limit, which is raised where a patch cannot keep it: outside
- * of its trims a surface may run far away. */
+/** Triangles of one surface with an edge limit, which is raised where the surface
+ * cannot keep it because it runs far away outside of its trims. */
 pcl::nurbs::TriangleMesh
-coarsestNeeded(const pcl::nurbs::SurfaceModel& model,
-               pcl::nurbs::TessellationOptions& options,
-               double longest)
+fineMesh(const pcl::nurbs::TrimmedSurface& surface,
+         pcl::nurbs::TessellationOptions options,
+         double longest)
 {
   while (true) {
     try {
-      return pcl::nurbs::tessellate(model, options);
+      return pcl::nurbs::tessellate(surface, options);
     } catch (const std::domain_error&) {
       if (options.max_edge_length > longest)
         throw;
       options.max_edge_length *= 2.0;
     }
   }
+}
+
+/** Append the triangles of a patch. */
+void
+append(const pcl::nurbs::TriangleMesh& part,
+       std::uint32_t patch,
+       pcl::nurbs::TriangleMesh& mesh)
+{
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto add = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  add(part.vertices, mesh.vertices);
+  add(part.normals, mesh.normals);
+  add(part.parameters, mesh.parameters);
+  mesh.patch.resize(mesh.vertices.size(), patch);
+  for (const auto& [a, b, c] : part.triangles)
+    mesh.triangles.push_back({first + a, first + b, first + c});
 }
 
 /** Draw with each vertex coloured by the distance of the point next to it. */
@@ -132,8 +150,11 @@ drawDeviation(const pcl::nurbs::GridPoints& points,
   pcl::nurbs::TessellationOptions tessellation;
   tessellation.chord_tolerance = size / 4000.0;
   tessellation.max_edge_length = size / kEdgesAcross;
-  const pcl::nurbs::TriangleMesh mesh =
-      coarsestNeeded(reconstruction.model, tessellation, size);
+  pcl::nurbs::TriangleMesh mesh;
+  for (std::size_t k = 0; k < reconstruction.model.patches.size(); ++k)
+    append(fineMesh(reconstruction.model.patches[k].geometry, tessellation, size),
+           static_cast<std::uint32_t>(k),
+           mesh);
   return pcl::nurbs::renderMesh(
       mesh,
       render,
