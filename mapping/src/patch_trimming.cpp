@@ -19,10 +19,11 @@ namespace {
 /** Finds the (u, v) of lattice corners. */
 class CornerParameters {
 public:
-  CornerParameters(const GridGeometry& geometry,
+  CornerParameters(const ReconstructionInput& input,
                    const FittedSurface& surface,
                    const GridWindow& window)
-      : geometry_(geometry),
+      : input_(input),
+        geometry_(input.points.geometry),
         surface_(surface),
         window_(window),
         position_(window.mask.cells.size(), -1)
@@ -37,37 +38,23 @@ public:
   {
     const Eigen::Vector2d lattice =
         corner.cast<double>() + window_.origin() - Eigen::Vector2d(0.5, 0.5);
-    const Eigen::Vector2d uv = uvOf(corner, lattice);
+    const Eigen::Vector2d uv = surface_.frame.corners == CornerRule::Grid
+                                   ? lattice
+                                   : fromCells(corner, lattice);
     const NurbsSurface& surface = surface_.fit.surface;
     return {surface.knotsU().clampToDomain(uv.x()),
             surface.knotsV().clampToDomain(uv.y())};
   }
 
 private:
-  Eigen::Vector2d
-  uvOf(const Eigen::Vector2i& corner, const Eigen::Vector2d& lattice) const
-  {
-    switch (surface_.frame.corners) {
-    case CornerRule::Grid:
-      return lattice;
-    case CornerRule::View:
-      return surface_.frame.frame.toLocal(geometry_.direction(lattice.x(), lattice.y()))
-          .head<2>();
-    case CornerRule::Surface:
-      break;
-    }
-    return fromCells(corner, lattice);
-  }
-
   int
   cellAt(const Eigen::Vector2i& place) const
   {
     return window_.mask.at(place.x(), place.y()) ? position_[window_.index(place)] : -1;
   }
 
-  /** Mean over the nearest member cells around a corner of where the ray through the
-   * corner meets the tangent plane of the surface at each of them. Where gaps between
-   * samples are closed, these need not be next to the corner. */
+  /** Mean over the nearest member cells around a corner of where each of them has it.
+   * Where gaps between samples are closed, these need not be next to the corner. */
   Eigen::Vector2d
   fromCells(const Eigen::Vector2i& corner, const Eigen::Vector2d& lattice) const
   {
@@ -80,7 +67,7 @@ private:
           const int cell = cellAt(corner + Eigen::Vector2i(dc, dr));
           if (cell < 0)
             continue;
-          sum += onRay(surface_.parameters.col(cell), lattice);
+          sum += fromCell(static_cast<std::size_t>(cell), lattice);
           ++count;
         }
       if (count > 0)
@@ -89,20 +76,38 @@ private:
     throw std::logic_error("trimming: the mask has no member cell");
   }
 
-  /** (u, v) where the ray through a lattice position meets the tangent plane at a foot
-   * point; the foot point itself where there are no rays, or they graze the surface. */
+  /** (u, v) of a lattice position, counted from the point of a cell and not from the
+   * cell's centre: a laser's rings are not where one table of angles has them at every
+   * range and azimuth, but their spacing is. */
   Eigen::Vector2d
-  onRay(const Eigen::Vector2d& foot, const Eigen::Vector2d& lattice) const
+  fromCell(std::size_t k, const Eigen::Vector2d& lattice) const
+  {
+    const Eigen::Vector2d foot = surface_.parameters.col(static_cast<Eigen::Index>(k));
+    if (geometry_.projection == GridProjection::lattice)
+      return foot;
+    const int cell = surface_.cells[k];
+    const Eigen::Vector2d centre(window_.origin().x() + window_.place(cell).x(),
+                                 cell / geometry_.width);
+    const Eigen::Vector2d place = geometry_.chart(input_.position(cell)).head<2>() +
+                                  geometry_.chartOfCell(lattice.x(), lattice.y()) -
+                                  geometry_.chartOfCell(centre.x(), centre.y());
+    if (geometry_.projection == GridProjection::plane)
+      return below(place);
+    const Eigen::Vector3d ray = geometry_.ray(place.x(), place.y());
+    return surface_.frame.corners == CornerRule::View
+               ? Eigen::Vector2d(surface_.frame.frame.toLocal(ray).head<2>())
+               : onRay(foot, ray);
+  }
+
+  /** (u, v) where a ray meets the tangent plane at a foot point; the foot point itself
+   * where it grazes the surface. */
+  Eigen::Vector2d
+  onRay(const Eigen::Vector2d& foot, const Eigen::Vector3d& ray) const
   {
     constexpr double kGrazing = 0.02;
     constexpr double kMostChange = 0.2; // of the range
-    if (geometry_.projection == GridProjection::plane)
-      return below(lattice);
-    if (geometry_.projection == GridProjection::lattice)
-      return foot;
     const SurfaceJet1 jet = surface_.fit.surface.evaluateJet1(foot.x(), foot.y());
     const Eigen::Vector3d normal = jet.du.cross(jet.dv).normalized();
-    const Eigen::Vector3d ray = geometry_.direction(lattice.x(), lattice.y());
     const double along = normal.dot(ray);
     if (std::abs(along) < kGrazing)
       return foot;
@@ -112,17 +117,15 @@ private:
     return surface_.frame.frame.toLocal(range * ray).head<2>();
   }
 
-  /** (u, v) of a lattice position in a map, whose rays are all parallel to the heights.
-   */
+  /** (u, v) of a place in a map, whose rays are all parallel to the heights. */
   Eigen::Vector2d
-  below(const Eigen::Vector2d& lattice) const
+  below(const Eigen::Vector2d& place) const
   {
-    const Eigen::Vector3d chart(geometry_.first_u + lattice.x() * geometry_.step_u,
-                                geometry_.first_v + lattice.y() * geometry_.step_v,
-                                0.0);
+    const Eigen::Vector3d chart(place.x(), place.y(), 0.0);
     return surface_.frame.frame.toLocal(geometry_.frame.transpose() * chart).head<2>();
   }
 
+  const ReconstructionInput& input_;
   const GridGeometry& geometry_;
   const FittedSurface& surface_;
   const GridWindow& window_;
@@ -130,11 +133,11 @@ private:
 };
 
 std::vector<TrimLoop>
-trimLoops(const GridGeometry& geometry,
+trimLoops(const ReconstructionInput& input,
           const FittedSurface& surface,
           const GridWindow& window)
 {
-  const CornerParameters parameters(geometry, surface, window);
+  const CornerParameters parameters(input, surface, window);
   // Rows count downwards: seen in (u, v) the sense of a loop may be the other one.
   std::vector<TrimLoop> loops;
   double total = 0.0;
@@ -215,7 +218,7 @@ trimToInliers(const ReconstructionInput& input,
   quality.points = part.members.size();
   quality.noise = surface.noise;
   quality.rmse = std::sqrt(sum / static_cast<double>(part.members.size()));
-  std::vector<TrimLoop> loops = trimLoops(input.points.geometry, surface, window);
+  std::vector<TrimLoop> loops = trimLoops(input, surface, window);
   if (loops.empty())
     return false;
   part.patch.geometry = TrimmedSurface(surface.fit.surface, std::move(loops));

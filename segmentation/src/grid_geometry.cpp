@@ -28,6 +28,19 @@ nearestEntry(const std::vector<double>& table, double value)
   return static_cast<double>(upper - table.begin());
 }
 
+/** Value of a table of at least one entry between and beyond its entries, linearly. */
+double
+interpolate(const std::vector<double>& table, double place)
+{
+  if (table.size() == 1)
+    return table.front();
+  const double last = static_cast<double>(table.size()) - 2.0;
+  const auto before =
+      static_cast<std::size_t>(std::clamp(std::floor(place), 0.0, last));
+  return table[before] +
+         (place - static_cast<double>(before)) * (table[before + 1] - table[before]);
+}
+
 } // namespace
 
 Eigen::Matrix3d
@@ -100,15 +113,16 @@ GridGeometry::cell(double u, double v) const
   return {column, row};
 }
 
-Eigen::Vector3d
-GridGeometry::direction(double column, double row) const
+Eigen::Vector2d
+GridGeometry::chartOfCell(double column, double row) const
 {
-  const double u = first_u + column * step_u;
-  double v = first_v + row * step_v;
-  if (!row_v.empty()) {
-    const double last = static_cast<double>(row_v.size()) - 1.0;
-    v = row_v[static_cast<std::size_t>(std::clamp(std::round(row), 0.0, last))];
-  }
+  return {first_u + column * step_u,
+          row_v.empty() ? first_v + row * step_v : interpolate(row_v, row)};
+}
+
+Eigen::Vector3d
+GridGeometry::ray(double u, double v) const
+{
   switch (projection) {
   case GridProjection::perspective:
     return frame.transpose() * Eigen::Vector3d(u, v, 1.0).normalized();
@@ -121,6 +135,13 @@ GridGeometry::direction(double column, double row) const
   default:
     throw std::domain_error("GridGeometry: a lattice has no directions");
   }
+}
+
+Eigen::Vector3d
+GridGeometry::direction(double column, double row) const
+{
+  const Eigen::Vector2d place = chartOfCell(column, row);
+  return ray(place.x(), place.y());
 }
 
 double

@@ -75,6 +75,12 @@ struct Source {
   double least_inside = 0.96; // points of a patch that its trims hold
 };
 
+void
+PrintTo(const Source& source, std::ostream* stream)
+{
+  *stream << source.folder;
+}
+
 CloudReadOptions
 depth(double scale, bool rotated = false)
 {
@@ -139,18 +145,19 @@ INSTANTIATE_TEST_SUITE_P(
                     Source{"seven_scenes_redkitchen", ".png", {}, 0.9}),
     nameOf);
 
-// What is covered there depends on the plants; it must work.
+// What is covered there depends on the plants; it must work. Points of submaps come
+// from several places, so that neighbours in their raster do not follow each other.
 INSTANTIATE_TEST_SUITE_P(
-    Elsewhere, // rays graze the ground: the border of a patch is less certain
+    Elsewhere,
     RealReconstruction,
-    testing::Values(Source{"pcl_unorganized", ".pcd", {}, 0.0, 0.8},
-                    Source{"synpeb_room", ".pcd", {}, 0.0, 0.8},
-                    Source{"isprs_urban_als", ".pcd", {}, 0.0, 0.8},
-                    Source{"registration_pairs", ".ply", {}, 0.0, 0.8},
-                    Source{"kitti_odometry/sequences/00", ".bin", {}, 0.3, 0.8},
-                    Source{"kitti_odometry/sequences/01_thin3", ".bin", {}, 0.0, 0.8},
-                    Source{"kitti_raw", ".bin", {}, 0.0, 0.8},
-                    Source{"balm_realworld", ".bin", {}, 0.0, 0.8},
+    testing::Values(Source{"pcl_unorganized", ".pcd", {}, 0.0, 0.85},
+                    Source{"synpeb_room", ".pcd", {}, 0.0, 0.91},
+                    Source{"isprs_urban_als", ".pcd", {}, 0.0, 0.91},
+                    Source{"registration_pairs", ".ply", {}, 0.0, 0.91},
+                    Source{"kitti_odometry/sequences/00", ".bin", {}, 0.3, 0.91},
+                    Source{"kitti_odometry/sequences/01_thin3", ".bin", {}, 0.0, 0.91},
+                    Source{"kitti_raw", ".bin", {}, 0.0, 0.91},
+                    Source{"balm_realworld", ".bin", {}, 0.0, 0.91},
                     Source{"kitti_07_submaps", ".bin", withoutReflectance(), 0.0, 0.8}),
     nameOf);
 

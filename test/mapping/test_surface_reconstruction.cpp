@@ -130,6 +130,32 @@ TEST(SurfaceReconstruction, closedScanHoldsItsOwnPoints)
   EXPECT_GE(checkOwnPoints(points, result, 3).inside, 0.98);
 }
 
+/** A wall seen by a laser whose rows are not equally spaced and whose
+ * sources sit below the middle of the rings, so that near rings are lower than the
+ * table of angles has them. */
+TEST(SurfaceReconstruction, displacedRingsHoldTheirOwnPoints)
+{
+  constexpr double kBelow = 0.25; // metres
+  GridGeometry laser = turningLaser(900, 40);
+  laser.step_v = 0.0;
+  for (int row = 0; row < laser.height; ++row)
+    laser.row_v.push_back(-0.05 + 0.005 * row + 0.0001 * row * row);
+  PointCloud<PointXYZ> cloud(900, 40);
+  for (int row = 0; row < laser.height; ++row)
+    for (int column = 0; column < laser.width; ++column) {
+      const Eigen::Vector3d ray = laser.direction(column, row);
+      const bool ahead = ray.x() > 0.8;
+      const double range = ahead ? 6.0 / ray.x() : std::nan("");
+      const Eigen::Vector3d hit = range * ray - kBelow * Eigen::Vector3d::UnitZ();
+      cloud(column, row).getVector3fMap() = hit.cast<float>();
+    }
+  const GridPoints points = toGridPoints(cloud, laser);
+  const Reconstruction result =
+      reconstructSurfaces(points, oneSegment(points), constantNoise(0.01));
+  ASSERT_EQ(result.model.patches.size(), 1U);
+  EXPECT_GE(checkOwnPoints(points, result, 1).inside, 0.99);
+}
+
 /** A terrain seen from above, its points anywhere in their cells. */
 TEST(SurfaceReconstruction, scatteredMapHoldsItsOwnPoints)
 {

@@ -132,6 +132,19 @@ TEST(OrganizedInput, directionsInvertTheCells)
     }
 }
 
+TEST(OrganizedInput, placesBetweenUnequalRowsAreInterpolated)
+{
+  GridGeometry grid = turningLaser(90, 3);
+  grid.row_v = {-0.2, -0.1, 0.2};
+  EXPECT_NEAR(grid.chartOfCell(0.0, 1.0).y(), -0.1, 1e-15);
+  EXPECT_NEAR(grid.chartOfCell(0.0, 1.5).y(), 0.05, 1e-15);
+  EXPECT_NEAR(grid.chartOfCell(0.0, -0.5).y(), -0.25, 1e-15);
+  EXPECT_NEAR(grid.chartOfCell(0.0, 2.5).y(), 0.35, 1e-15);
+  EXPECT_NEAR(grid.chart(grid.direction(7.25, 1.5)).y(), 0.05, 1e-12);
+  grid.row_v = {0.3};
+  EXPECT_NEAR(grid.chartOfCell(0.0, 0.5).y(), 0.3, 1e-15);
+}
+
 TEST(ScatteredInput, ringsInStoredOrderComeBack)
 {
   // A laser that begins each ring where it looks forward, and drops some returns.

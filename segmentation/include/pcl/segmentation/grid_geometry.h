@@ -85,8 +85,19 @@ struct PCL_NURBS_SEGMENTATION_EXPORT GridGeometry {
   Eigen::Vector2d
   cell(double u, double v) const;
 
-  /** \brief Unit vector, in the cloud's frame, of the ray through a cell. In a plane
+  /** \brief (u, v) of a place in the grid, whole numbers being the centres of cells;
+   * the inverse of cell() but for unequal rows, whose angles are interpolated. */
+  Eigen::Vector2d
+  chartOfCell(double column, double row) const;
+
+  /** \brief Unit vector, in the cloud's frame, of the ray through (u, v). In a plane
    * grid all rays are parallel.
+   * \throws std::domain_error for a lattice
+   */
+  Eigen::Vector3d
+  ray(double u, double v) const;
+
+  /** \brief The ray through a place in the grid: ray() of chartOfCell().
    * \throws std::domain_error for a lattice
    */
   Eigen::Vector3d
