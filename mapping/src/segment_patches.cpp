@@ -6,20 +6,13 @@
 #include "mask_operations.h"
 #include "patch_trimming.h"
 
-#include <chrono>
+#include <pcl/mapping/stop_watch.h>
+
 #include <utility>
 
 namespace pcl {
 namespace nurbs {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double
-secondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /** Turns a segment into patches. */
 class SegmentReconstructor {
@@ -61,18 +54,17 @@ private:
   {
     if (static_cast<int>(cells.size()) < input_.options.min_patch_points)
       return false;
-    const Clock::time_point start = Clock::now();
+    StopWatch watch;
     FittedSurface surface;
     const bool fitted = fitCells(input_, cells, surface);
-    result_.fit_seconds += secondsSince(start);
+    result_.fit_seconds += watch.lap();
     if (!fitted)
       return false;
-    const Clock::time_point trim_start = Clock::now();
     TrimmedPart part;
     const bool kept = trimToInliers(input_, surface, part);
     if (kept)
       keep(surface, std::move(part), rest);
-    result_.trim_seconds += secondsSince(trim_start);
+    result_.trim_seconds += watch.lap();
     return kept;
   }
 

@@ -4,7 +4,7 @@
 // Evaluation of a 34 x 34 surface at scattered parameters, against SISL.
 
 #include "measure.h"
-#include "sisl_surface.h"
+#include "sisl_evaluator.h"
 #include "wave.h"
 
 #include <benchmark/benchmark.h>

@@ -5,7 +5,7 @@
 
 #include <pcl/surface/nurbs/knot_operations.h>
 
-#include "sisl_surface.h"
+#include "sisl_evaluator.h"
 #include "wave.h"
 
 #include <benchmark/benchmark.h>

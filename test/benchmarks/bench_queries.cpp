@@ -6,7 +6,7 @@
 #include <pcl/surface/nurbs/closest_point.h>
 
 #include "measure.h"
-#include "sisl_surface.h"
+#include "sisl_evaluator.h"
 #include "wave.h"
 
 #include <benchmark/benchmark.h>

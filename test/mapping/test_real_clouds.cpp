@@ -22,6 +22,7 @@ namespace {
 
 using namespace pcl;
 using namespace pcl::nurbs;
+using namespace pcl::nurbs::test;
 using pcl::nurbs::test::filesIn;
 
 struct Source {
@@ -32,22 +33,6 @@ struct Source {
   double most_dropped = 0.1;
   double least_labelled = 0.7; // of the points that found a cell
 };
-
-CloudReadOptions
-withScale(double scale)
-{
-  CloudReadOptions options;
-  options.depth_scale = scale;
-  return options;
-}
-
-CloudReadOptions
-withoutReflectance()
-{
-  CloudReadOptions options;
-  options.bin_values_per_point = 3;
-  return options;
-}
 
 class RealClouds : public testing::TestWithParam<Source> {};
 
@@ -103,12 +88,14 @@ INSTANTIATE_TEST_SUITE_P(
         Source{"balm_realworld", ".bin", GridProjection::spherical, {}},
         // Several scans from several places: layered in every projection.
         Source{"kitti_07_submaps", ".bin", {}, withoutReflectance(), 0.25, 0.55},
-        Source{
-            "tum_fr1_desk/depth", ".png", GridProjection::perspective, withScale(5000)},
+        Source{"tum_fr1_desk/depth",
+               ".png",
+               GridProjection::perspective,
+               depthScale(5000)},
         Source{"icl_nuim_lr_kt0/depth",
                ".png",
                GridProjection::perspective,
-               withScale(5000)},
+               depthScale(5000)},
         Source{"seven_scenes_redkitchen", ".png", GridProjection::perspective, {}},
         Source{"redwood_bollard", ".png", GridProjection::perspective, {}},
         Source{"synthetic_knot", ".png", GridProjection::perspective, {}}),

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <pcl/mapping/cloud_reader.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -28,6 +30,24 @@ filesIn(const std::filesystem::path& place,
   std::sort(files.begin(), files.end());
   files.resize(std::min(files.size(), most));
   return files;
+}
+
+/** Depth images of so many units per metre. */
+inline CloudReadOptions
+depthScale(double scale)
+{
+  CloudReadOptions options;
+  options.depth_scale = scale;
+  return options;
+}
+
+/** .bin files of (x, y, z) only. */
+inline CloudReadOptions
+withoutReflectance()
+{
+  CloudReadOptions options;
+  options.bin_values_per_point = 3;
+  return options;
 }
 
 } // namespace test

@@ -24,20 +24,22 @@ struct SislDeleter {
 
 using SislSurface = std::unique_ptr<SISLSurf, SislDeleter>;
 
-/** The same surface in SISL, an independent implementation. Its first direction runs
- * fastest. */
+/** The same surface in SISL, an independent implementation, which stores u fastest
+ * where we store v fastest. */
 inline SislSurface
 toSisl(const NurbsSurface& surface)
 {
-  std::vector<double> u = surface.knotsU().values();
-  std::vector<double> v = surface.knotsV().values();
+  const bool rational = surface.isRational();
+  const int rows = rational ? 4 : 3;
   std::vector<double> points;
   for (int j = 0; j < surface.numControlPointsV(); ++j)
-    for (int i = 0; i < surface.numControlPointsU(); ++i) {
-      const Eigen::Vector4d point =
-          surface.homogeneousPoints().col(i * surface.numControlPointsV() + j);
-      points.insert(points.end(), point.data(), point.data() + 4);
-    }
+    for (int i = 0; i < surface.numControlPointsU(); ++i)
+      for (int row = 0; row < rows; ++row)
+        points.push_back(
+            surface.homogeneousPoints()(row, i * surface.numControlPointsV() + j));
+  std::vector<double> u = surface.knotsU().values();
+  std::vector<double> v = surface.knotsV().values();
+  constexpr int kPolynomial = 1;
   constexpr int kRational = 2;
   constexpr int kCopy = 1;
   return SislSurface(newSurf(surface.numControlPointsU(),
@@ -47,7 +49,7 @@ toSisl(const NurbsSurface& surface)
                              u.data(),
                              v.data(),
                              points.data(),
-                             kRational,
+                             rational ? kRational : kPolynomial,
                              3,
                              kCopy));
 }

@@ -10,13 +10,13 @@
 
 #include <pcl/mapping/demo_scene.h>
 #include <pcl/mapping/reconstruction_statistics.h>
+#include <pcl/mapping/stop_watch.h>
 
 #include <pcl/common/point_tests.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -24,23 +24,8 @@
 namespace {
 
 using namespace pcl_nurbs_tools;
+using pcl::nurbs::StopWatch;
 using Reconstructor = pcl::NurbsReconstruction<pcl::PointXYZ>;
-
-/** Wall-clock seconds since construction or the last lap. */
-class StopWatch {
-public:
-  double
-  lap()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /** A run of the command: its input, its result, and how long each stage took. */
 class Run {

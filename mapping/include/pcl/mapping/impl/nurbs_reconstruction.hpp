@@ -4,34 +4,15 @@
 #pragma once
 
 #include <pcl/mapping/nurbs_reconstruction.h>
+#include <pcl/mapping/stop_watch.h>
 #include <pcl/segmentation/impl/cloud_organizer.hpp>
 #include <pcl/segmentation/impl/grid_segmentation.hpp>
 
 #include <pcl/console/print.h>
 
-#include <chrono>
 #include <stdexcept>
 
 namespace pcl {
-namespace detail {
-
-/** \brief Seconds since the last call of lap(). */
-class StopWatch {
-public:
-  double
-  lap()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-} // namespace detail
 
 template <typename PointT>
 bool
@@ -43,7 +24,7 @@ NurbsReconstruction<PointT>::reconstruct(nurbs::SurfaceModel& model)
   num_segments_ = 0;
   if (!organize() || !segment())
     return false;
-  detail::StopWatch watch;
+  nurbs::StopWatch watch;
   try {
     const nurbs::GridPoints points = nurbs::toGridPoints(*organized_, used_geometry_);
     result_ =
@@ -68,7 +49,7 @@ template <typename PointT>
 bool
 NurbsReconstruction<PointT>::organize()
 {
-  detail::StopWatch watch;
+  nurbs::StopWatch watch;
   if (geometry_ && input_ && input_->isOrganized() && !indices_) {
     *organized_ = *input_;
     used_geometry_ = *geometry_;
@@ -92,7 +73,7 @@ template <typename PointT>
 bool
 NurbsReconstruction<PointT>::segment()
 {
-  detail::StopWatch watch;
+  nurbs::StopWatch watch;
   typename Segmentation::Ptr segmentation = segmentation_;
   if (!segmentation)
     segmentation.reset(new ConnectedGroupsSegmentation<PointT>);
