@@ -23,7 +23,6 @@ namespace {
 using namespace pcl;
 using namespace pcl::nurbs;
 using namespace pcl::nurbs::test;
-using pcl::nurbs::test::filesIn;
 
 struct Source {
   const char* folder;
