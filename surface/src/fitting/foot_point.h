@@ -27,6 +27,8 @@ clampNear(const KnotVector& knots, double margin, double u)
  * \param[in] point point in space
  * \param[in] steps most steps taken
  * \param[in] margin how far the foot may leave the domain, relative to its length
+ * \param[in] last_step share of the domain: a step below it is the last one, as the
+ *            distance is off by the square of what is left
  * \param[in,out] uv start, then the foot point
  * \return point and derivatives at the foot point */
 inline SurfaceJet1
@@ -34,11 +36,10 @@ projectFrom(const NurbsSurface& surface,
             const Eigen::Vector3d& point,
             int steps,
             double margin,
+            double last_step,
             Eigen::Ref<Eigen::Vector2d> uv)
 {
   constexpr double kNegligible = 1e-14; // squared sine between the derivatives
-  constexpr double kNegligibleStep =
-      1e-8; // of the domain: the distance moves by its square
   SurfaceJet1 jet = surface.evaluateJet1(uv.x(), uv.y());
   for (int step = 0; step < steps; ++step) {
     const Eigen::Vector3d offset = point - jet.position;
@@ -58,7 +59,7 @@ projectFrom(const NurbsSurface& surface,
                  std::abs(next.y() - uv.y()) / surface.knotsV().domainLength());
     uv = next;
     jet = surface.evaluateJet1(uv.x(), uv.y());
-    if (moved < kNegligibleStep)
+    if (moved < last_step)
       break;
   }
   return jet;
