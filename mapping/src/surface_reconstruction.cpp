@@ -176,6 +176,7 @@ ReconstructionOptions::ReconstructionOptions()
   knots.points_per_sample = 0.0;
   fit.distance = FitDistance::Parametric;
   fit.loss = RobustLoss::Huber;
+  fit.linear_solver = LinearSolver::Cholesky; // many small fits; the same result
 }
 
 Reconstruction

@@ -149,15 +149,17 @@ fitHeightField(const HeightFieldFrame& frame,
                const SurfaceFitOptions& options)
 {
   SplitPoints split(points, options);
-  const LocalPoints local = toLocal(frame, split.fitted);
+  LocalPoints local = toLocal(frame, split.fitted);
   if (split.held_out.positions.cols() > 0)
     split.held_out.parameters = toLocal(frame, split.held_out).parameters;
   SurfaceFit fit;
   Eigen::MatrixXd heights =
       solveHeights(knots_u, knots_v, local, options, fit.report).transpose();
   fit.surface = frame.surface(knots_u, knots_v, heights.transpose());
-  fit.parameters = local.parameters;
-  if (options.distance != FitDistance::Parametric) {
+  if (options.distance == FitDistance::Parametric) {
+    fit.parameters = std::move(local.parameters);
+  }
+  else {
     const HeightUnknowns unknowns(frame, knots_u, knots_v);
     OrthogonalProblem problem(unknowns,
                               fit.surface,
