@@ -48,10 +48,10 @@ private:
  * \param[in] point point in space
  * \param[in] steps most steps taken
  * \param[in] margin how far the foot may leave the domain, relative to its length
- * \param[in] last_step share of the domain: a step below it is the last one, as the
- *            distance is off by the square of what is left
+ * \param[in] last_step share of the domain: a step below it is the last one and taken
+ *            along the tangents, so that the point is off by its square
  * \param[in,out] uv start, then the foot point
- * \return point and derivatives at the foot point */
+ * \return point at the foot and derivatives there, or where the last step began */
 inline SurfaceJet1
 projectFrom(const NurbsSurface& surface,
             const Eigen::Vector3d& point,
@@ -78,10 +78,13 @@ projectFrom(const NurbsSurface& surface,
                                range_v.clamp(uv.y() + (a * t - b * r) / determinant));
     const double moved =
         std::max(range_u.share(next.x() - uv.x()), range_v.share(next.y() - uv.y()));
+    const Eigen::Vector2d taken = next - uv;
     uv = next;
-    jet = surface.evaluateJet1(uv.x(), uv.y());
-    if (moved < last_step)
+    if (moved < last_step) {
+      jet.position += taken.x() * jet.du + taken.y() * jet.dv;
       break;
+    }
+    jet = surface.evaluateJet1(uv.x(), uv.y());
   }
   return jet;
 }

@@ -141,7 +141,7 @@ OrthogonalProblem::evaluatePoints(const NurbsSurface& surface,
                                   PointTerms& terms) const
 {
   constexpr int kSteps = 3; // the residual is small beside the radius of curvature
-  constexpr double kLastStep = 1e-8; // derivatives are taken at the foot
+  constexpr double kLastStep = 1e-8; // the derivatives are used as well
   constexpr double kDomainMargin = 0.5;
   const Eigen::Index count = positions_.cols();
   const int rows = rowsPerPoint();
