@@ -111,7 +111,7 @@ fitInFront(const HeightFieldFrame& frame,
 }
 
 /** Knot search and fit in one frame with an assumed correlation; false if the frame
- * does not suit the points. */
+ * does not suit the points, or if the knots are those of the coarser fit. */
 bool
 fitOnce(const ReconstructionInput& input,
         const FitPoints& fitted,
@@ -128,6 +128,8 @@ fitOnce(const ReconstructionInput& input,
                                options,
                                search,
                                coarser != nullptr ? &coarser->knots : nullptr);
+    if (coarser != nullptr && surface.knots == coarser->knots)
+      return false;
     surface.fit =
         fitInFront(surface.frame.frame, surface.knots, fitted, input.options.fit);
     surface.fit.report.criterion = search.criterion;
@@ -157,7 +159,9 @@ fitInFrame(const ReconstructionInput& input,
   if (!fitOnce(input, fitted, all, options, nullptr, surface))
     return false;
   const double count = static_cast<double>(fitted.sigma.size());
+  // Beyond the limit of samples less correlation would change nothing.
   while (automatic && options.points_per_sample > 1.0 &&
+         count / options.points_per_sample < options.max_samples &&
          static_cast<double>(surface.num_inliers) < kExplained * count) {
     options.points_per_sample = std::max(1.0, 0.25 * options.points_per_sample);
     FittedSurface finer;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -91,6 +92,19 @@ append(SegmentPatches segment, Reconstruction& result)
   result.trim_seconds += segment.trim_seconds;
 }
 
+/** Segments by decreasing size: a large one that comes last would keep one thread busy
+ * after the others are done. */
+std::vector<std::size_t>
+largestFirst(const std::vector<CellSet>& segments)
+{
+  std::vector<std::size_t> order(segments.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return segments[a].size() > segments[b].size();
+  });
+  return order;
+}
+
 /** Shares segments out to threads and tells how many points are done. */
 class ParallelReconstruction {
 public:
@@ -108,8 +122,10 @@ public:
       total_ += cells.size();
       segments.push_back(std::move(cells));
     }
+    const std::vector<std::size_t> order = largestFirst(segments);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(input_.options.threads)
-    for (std::size_t k = 0; k < segments.size(); ++k) {
+    for (std::size_t turn = 0; turn < order.size(); ++turn) {
+      const std::size_t k = order[turn];
       try {
         reconstruct(std::move(segments[k]), found[k]);
       } catch (...) {
@@ -160,6 +176,7 @@ ReconstructionOptions::ReconstructionOptions()
   knots.points_per_sample = 0.0;
   fit.distance = FitDistance::Parametric;
   fit.loss = RobustLoss::Huber;
+  fit.linear_solver = LinearSolver::Cholesky; // many small fits; the same result
 }
 
 Reconstruction

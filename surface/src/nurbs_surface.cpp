@@ -34,11 +34,19 @@ NurbsSurface::NurbsSurface(KnotVector knots_u,
     throw std::invalid_argument("NurbsSurface: " + std::to_string(points_.cols()) +
                                 " control points for knots that need " +
                                 std::to_string(needed));
-  if (!points_.allFinite())
+  Eigen::Array4d zero = Eigen::Array4d::Zero(); // NaN unless all are finite
+  double least = points_(3, 0);
+  double largest = points_(3, 0);
+  for (const auto point : points_.colwise()) {
+    zero += 0.0 * point.array();
+    least = std::min(least, point(3));
+    largest = std::max(largest, point(3));
+  }
+  if (!(zero == 0.0).all())
     throw std::invalid_argument("NurbsSurface: a control point is not finite");
-  if (!(points_.row(3).minCoeff() > 0.0))
+  if (!(least > 0.0))
     throw std::invalid_argument("NurbsSurface: a weight is not positive");
-  rational_ = (points_.row(3).array() != points_(3, 0)).any();
+  rational_ = least != largest;
 }
 
 NurbsSurface

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl {
 namespace nurbs {
@@ -24,13 +25,14 @@ unitNormal(const NurbsSurface& surface,
   constexpr double kVanishing = 1e-10;
   const Eigen::Vector3d u = surface.knotsU().domainLength() * s_u;
   const Eigen::Vector3d v = surface.knotsV().domainLength() * s_v;
-  const double length_u = u.norm();
-  const double length_v = v.norm();
+  const double squared_u = u.squaredNorm();
+  const double squared_v = v.squaredNorm();
   const Eigen::Vector3d cross = u.cross(v);
-  const double length = cross.norm();
-  if (std::min(length_u, length_v) > kVanishing * std::max(length_u, length_v) &&
-      length > kVanishing * length_u * length_v)
-    return cross / length;
+  const double squared = cross.squaredNorm();
+  if (std::min(squared_u, squared_v) >
+          kVanishing * kVanishing * std::max(squared_u, squared_v) &&
+      squared > kVanishing * kVanishing * squared_u * squared_v)
+    return cross / std::sqrt(squared);
   return Eigen::Vector3d::Zero();
 }
 

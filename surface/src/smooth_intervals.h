@@ -28,7 +28,10 @@ public:
     const std::vector<double> breaks = knots.breaks();
     intervals_.push_back({breaks.front(), breaks.back()});
     for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
-      if (knots.multiplicity(breaks[i]) < knots.degree())
+      const int continuity = knots.degree() - knots.multiplicity(breaks[i]);
+      if (continuity == 1)
+        curvature_is_continuous_ = false;
+      if (continuity > 0)
         continue;
       // Evaluation at a knot belongs to the span above it, so the interval below ends
       // one representable number earlier.
@@ -42,6 +45,13 @@ public:
   closed() const
   {
     return closed_;
+  }
+
+  /** \brief Whether second derivatives are continuous inside of all intervals. */
+  bool
+  curvatureIsContinuous() const
+  {
+    return curvature_is_continuous_;
   }
 
   int
@@ -67,6 +77,7 @@ public:
 
 private:
   bool closed_;
+  bool curvature_is_continuous_ = true;
   std::vector<Interval> intervals_;
 };
 
@@ -86,6 +97,12 @@ public:
   value() const
   {
     return value_;
+  }
+
+  bool
+  curvatureIsContinuous() const
+  {
+    return intervals_->curvatureIsContinuous();
   }
 
   double

@@ -50,16 +50,32 @@ toCurve(const HomogeneousSpline& spline, const NurbsCurve<Dim>& model)
   return {spline.knots, std::move(points)};
 }
 
+/** \brief Copy a net of homogeneous points with its two directions exchanged.
+ * \param[in] from \a rows times \a columns points, columns fastest
+ * \param[out] to as many points, rows fastest */
+inline void
+transposeNet(const double* from, Eigen::Index rows, Eigen::Index columns, double* to)
+{
+  using Points = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+  for (Eigen::Index column = 0; column < columns; ++column)
+    Eigen::Map<Points>(to + 4 * rows * column, 4, rows) =
+        Eigen::Map<const Points, 0, Eigen::OuterStride<>>(
+            from + 4 * column, 4, rows, Eigen::OuterStride<>(4 * columns));
+}
+
 /** \brief The surface as a spline in one direction. */
 inline HomogeneousSpline
 toSpline(const NurbsSurface& surface, Direction direction)
 {
-  const NurbsSurface turned =
-      direction == Direction::U ? surface : surface.transposed();
-  const Eigen::Map<const Eigen::MatrixXd> columns(turned.homogeneousPoints().data(),
-                                                  4 * turned.numControlPointsV(),
-                                                  turned.numControlPointsU());
-  return {turned.knotsU(), columns, 4};
+  const Eigen::Index n_u = surface.numControlPointsU();
+  const Eigen::Index n_v = surface.numControlPointsV();
+  const double* points = surface.homogeneousPoints().data();
+  if (direction == Direction::U)
+    return {
+        surface.knotsU(), Eigen::Map<const Eigen::MatrixXd>(points, 4 * n_v, n_u), 4};
+  HomogeneousSpline spline{surface.knotsV(), Eigen::MatrixXd(4 * n_u, n_v), 4};
+  transposeNet(points, n_u, n_v, spline.points.data());
+  return spline;
 }
 
 /** \brief The surface of a spline in one direction of \a model. */
@@ -68,15 +84,19 @@ toSurface(const HomogeneousSpline& spline,
           const NurbsSurface& model,
           Direction direction)
 {
-  NurbsSurface::HomogeneousPoints points =
-      Eigen::Map<const NurbsSurface::HomogeneousPoints>(
-          spline.points.data(), 4, spline.points.size() / 4);
+  const Eigen::Index along = spline.points.cols();
+  const Eigen::Index across = spline.points.rows() / 4;
+  NurbsSurface::HomogeneousPoints points(4, along * across);
+  if (direction == Direction::U)
+    points = Eigen::Map<const NurbsSurface::HomogeneousPoints>(
+        spline.points.data(), 4, points.cols());
+  else
+    transposeNet(spline.points.data(), along, across, points.data());
   if (!model.isRational())
     points.row(3).setConstant(model.weight(0, 0));
-  const bool is_u = direction == Direction::U;
-  NurbsSurface surface(
-      spline.knots, model.knots(is_u ? Direction::V : Direction::U), std::move(points));
-  return is_u ? surface : surface.transposed();
+  if (direction == Direction::U)
+    return {spline.knots, model.knotsV(), std::move(points)};
+  return {model.knotsU(), spline.knots, std::move(points)};
 }
 
 } // namespace detail

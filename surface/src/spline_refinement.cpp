@@ -2,13 +2,23 @@
 // Copyright (c) 2026, the PCL-NURBS authors
 
 #include "homogeneous_spline.h"
+#include "runtime_simd.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace pcl {
 namespace nurbs {
 namespace detail {
 namespace {
+
+/** values = ratio * next + (1 - ratio) * values. */
+PCL_NURBS_RUNTIME_SIMD void
+blend(double ratio, const double* next, double* values, std::ptrdiff_t count)
+{
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+    values[i] = ratio * next[i] + (1.0 - ratio) * values[i];
+}
 
 /** Knots [begin, end) and the control points that belong to them. */
 HomogeneousSpline
@@ -75,8 +85,10 @@ refined(const HomogeneousSpline& spline, const std::vector<double>& added)
       const double from = old[i - p + l];
       const double ratio = (*u - from) / (knots[k + l] - from);
       const std::ptrdiff_t column = k - p + l - 1;
-      points.col(column) =
-          ratio * points.col(column + 1) + (1.0 - ratio) * points.col(column);
+      blend(ratio,
+            points.col(column + 1).data(),
+            points.col(column).data(),
+            points.rows());
     }
     knots[k] = *u;
   }

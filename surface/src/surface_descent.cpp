@@ -20,6 +20,11 @@ constexpr int kMaxHalvings = 12;
  * is of the order of their square. */
 constexpr double kLastStep = 1e-7;
 
+/** Steps bent by the curvature of the surface leave an error of the order of their
+ * square times the distance or their length, whichever is larger; the descent ends
+ * where that is below this share of the cubed size. */
+constexpr double kLastBentError = 1e-14;
+
 /** Lengths below this share of the surface count as none. */
 constexpr double kNoStep = 1e-14;
 
@@ -35,13 +40,39 @@ struct SquaredDistanceSlope {
         g(s.dv.squaredNorm()),
         uu(e + residual.dot(s.duu)),
         uv(f + residual.dot(s.duv)),
-        vv(g + residual.dot(s.dvv))
+        vv(g + residual.dot(s.dvv)),
+        det(uu * vv - uv * uv)
   {
+  }
+
+  /** Whether the Hessian is safely positive. */
+  bool
+  isConvex() const
+  {
+    constexpr double kSingular = 1e-10;
+    return uu > 0.0 && det > kSingular * uu * vv;
+  }
+
+  /** Newton step to where the slope \a u, \a v vanishes. */
+  Eigen::Vector2d
+  newtonStep(double slope_u, double slope_v) const
+  {
+    return Eigen::Vector2d(uv * slope_v - vv * slope_u, uv * slope_u - uu * slope_v) /
+           det;
+  }
+
+  /** Squared length of a step on the surface. */
+  double
+  squaredLength(const Eigen::Vector2d& step) const
+  {
+    return e * step.x() * step.x() + 2.0 * f * step.x() * step.y() +
+           g * step.y() * step.y();
   }
 
   double u, v;
   double e, f, g;
   double uu, uv, vv;
+  double det;
 };
 
 namespace {
@@ -51,18 +82,13 @@ namespace {
 Eigen::Vector2d
 descentStep(const SquaredDistanceSlope& slope, bool free_u, bool free_v)
 {
-  constexpr double kSingular = 1e-10;
   const double damping = 1e-12 * (slope.e + slope.g) + 1e-300;
   if (free_u && free_v) {
-    const double product = slope.uu * slope.vv;
-    double det = product - slope.uv * slope.uv;
-    if (slope.uu > 0.0 && det > kSingular * product)
-      return Eigen::Vector2d(slope.uv * slope.v - slope.vv * slope.u,
-                             slope.uv * slope.u - slope.uu * slope.v) /
-             det;
+    if (slope.isConvex())
+      return slope.newtonStep(slope.u, slope.v);
     const double e = slope.e + damping;
     const double g = slope.g + damping;
-    det = e * g - slope.f * slope.f;
+    const double det = e * g - slope.f * slope.f;
     return Eigen::Vector2d(slope.f * slope.v - g * slope.u,
                            slope.f * slope.u - e * slope.v) /
            det;
@@ -95,7 +121,7 @@ SurfaceDescent::SurfaceDescent(const NurbsSurface& surface,
       point_(point),
       u_(intervals_u, start.x()),
       v_(intervals_v, start.y()),
-      last_step_(kLastStep * size),
+      size_(size),
       no_step_(kNoStep * size)
 {
   load(surface_.evaluateJet2(u_.value(), v_.value()));
@@ -106,32 +132,79 @@ SurfaceDescent::run()
 {
   for (int iteration = 0; iteration < kMaxIterations && !converged_; ++iteration) {
     const SquaredDistanceSlope slope(jet_, residual_);
-    if (hopped(slope))
+    const bool free_u = !u_.blocked(slope.u);
+    const bool free_v = !v_.blocked(slope.v);
+    if ((!free_u && u_.hop(slope.u)) || (!free_v && v_.hop(slope.v))) {
+      load(surface_.evaluateJet2(u_.value(), v_.value()));
       continue;
-    Eigen::Vector2d step =
-        descentStep(slope, !u_.blocked(slope.u), !v_.blocked(slope.v));
-    step.x() = u_.clamp(u_.value() + step.x()) - u_.value();
-    step.y() = v_.clamp(v_.value() + step.y()) - v_.value();
-    const double length = (step.x() * jet_.du + step.y() * jet_.dv).norm();
-    constexpr double kShare = 1e-3; // where a pole makes length tell nothing
-    if (length <= no_step_)
+    }
+    Eigen::Vector2d step = descentStep(slope, free_u, free_v);
+    const bool bent = free_u && free_v && slope.isConvex() && bend(slope, step);
+    step = clamped(step);
+    const double squared_length = std::max(slope.squaredLength(step), 0.0);
+    if (squared_length <= no_step_ * no_step_)
       converged_ = true;
-    else if (length <= last_step_ && std::abs(step.x()) <= kShare * u_.length() &&
-             std::abs(step.y()) <= kShare * v_.length())
+    else if (isLast(step, squared_length, bent))
       finish(step);
     else if (!tryStep(step) && !tryStep(gradientStep(slope)))
       return;
   }
 }
 
+/** Correct a Newton step by the slope that the Taylor polynomial of the surface has at
+ * its end: most of another iteration without another evaluation.
+ * \return whether it is corrected and stays inside of its intervals */
 bool
-SurfaceDescent::hopped(const SquaredDistanceSlope& slope)
+SurfaceDescent::bend(const SquaredDistanceSlope& slope, Eigen::Vector2d& step) const
 {
-  const bool moved = (u_.blocked(slope.u) && u_.hop(slope.u)) ||
-                     (v_.blocked(slope.v) && v_.hop(slope.v));
-  if (moved)
-    load(surface_.evaluateJet2(u_.value(), v_.value()));
-  return moved;
+  const SurfaceJet1 end = taylor(step);
+  const Eigen::Vector3d residual = end.position - point_;
+  const Eigen::Vector2d correction =
+      slope.newtonStep(residual.dot(end.du), residual.dot(end.dv));
+  if (!(slope.squaredLength(correction) <= 0.1 * slope.squaredLength(step)))
+    return false; // too far for the polynomial
+  step += correction;
+  const double u = u_.value() + step.x();
+  const double v = v_.value() + step.y();
+  return u_.clamp(u) == u && v_.clamp(v) == v;
+}
+
+Eigen::Vector2d
+SurfaceDescent::clamped(const Eigen::Vector2d& step) const
+{
+  return {u_.clamp(u_.value() + step.x()) - u_.value(),
+          v_.clamp(v_.value() + step.y()) - v_.value()};
+}
+
+/** Whether what is left after the step is negligible. */
+bool
+SurfaceDescent::isLast(const Eigen::Vector2d& step,
+                       double squared_length,
+                       bool bent) const
+{
+  constexpr double kShare = 1e-3; // where a pole makes length tell nothing
+  if (std::abs(step.x()) > kShare * u_.length() ||
+      std::abs(step.y()) > kShare * v_.length())
+    return false;
+  if (squared_length <= kLastStep * kLastStep * size_ * size_)
+    return true;
+  // The polynomial must hold across knots as well.
+  return bent && u_.curvatureIsContinuous() && v_.curvatureIsContinuous() &&
+         squared_length * std::sqrt(std::max(squared_, squared_length)) <=
+             kLastBentError * size_ * size_ * size_;
+}
+
+/** Point and first derivatives that the present Taylor polynomial has after a step. */
+SurfaceJet1
+SurfaceDescent::taylor(const Eigen::Vector2d& step) const
+{
+  const double a = step.x();
+  const double b = step.y();
+  const Eigen::Vector3d bend_u = a * jet_.duu + b * jet_.duv;
+  const Eigen::Vector3d bend_v = a * jet_.duv + b * jet_.dvv;
+  return {jet_.position + a * (jet_.du + 0.5 * bend_u) + b * (jet_.dv + 0.5 * bend_v),
+          jet_.du + bend_u,
+          jet_.dv + bend_v};
 }
 
 /** Take the step or the first of its halves that does not increase the distance. */
@@ -159,14 +232,14 @@ SurfaceDescent::tryStep(Eigen::Vector2d step)
 void
 SurfaceDescent::finish(const Eigen::Vector2d& step)
 {
-  const double a = step.x();
-  const double b = step.y();
-  jet_.position += a * jet_.du + b * jet_.dv + 0.5 * a * a * jet_.duu +
-                   a * b * jet_.duv + 0.5 * b * b * jet_.dvv;
+  const SurfaceJet1 end = taylor(step);
+  jet_.position = end.position;
+  jet_.du = end.du;
+  jet_.dv = end.dv;
   residual_ = jet_.position - point_;
   squared_ = residual_.squaredNorm();
-  u_.set(u_.clamp(u_.value() + a));
-  v_.set(v_.clamp(v_.value() + b));
+  u_.set(u_.clamp(u_.value() + step.x()));
+  v_.set(v_.clamp(v_.value() + step.y()));
   converged_ = true;
 }
 

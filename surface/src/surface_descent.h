@@ -48,7 +48,16 @@ private:
   }
 
   bool
-  hopped(const SquaredDistanceSlope& slope);
+  bend(const SquaredDistanceSlope& slope, Eigen::Vector2d& step) const;
+
+  Eigen::Vector2d
+  clamped(const Eigen::Vector2d& step) const;
+
+  bool
+  isLast(const Eigen::Vector2d& step, double squared_length, bool bent) const;
+
+  SurfaceJet1
+  taylor(const Eigen::Vector2d& step) const;
 
   bool
   tryStep(Eigen::Vector2d step);
@@ -60,7 +69,7 @@ private:
   Eigen::Vector3d point_;
   DescentParameter u_;
   DescentParameter v_;
-  double last_step_;
+  double size_;
   double no_step_;
   SurfaceJet2 jet_;
   Eigen::Vector3d residual_;

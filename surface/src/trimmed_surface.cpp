@@ -81,6 +81,21 @@ flattenCurve(const NurbsCurve2& curve,
     }
 }
 
+/** Signed area between the straight pieces of a curve and the arms from the origin to
+ * its ends. */
+double
+polygonSector(const NurbsCurve2& curve, const Eigen::Vector2d& origin)
+{
+  double sum = 0.0;
+  Eigen::Vector2d arm = curve.controlPoint(0) - origin;
+  for (int i = 1; i < curve.numControlPoints(); ++i) {
+    const Eigen::Vector2d next = curve.controlPoint(i) - origin;
+    sum += 0.5 * (arm.x() * next.y() - arm.y() * next.x());
+    arm = next;
+  }
+  return sum;
+}
+
 } // namespace
 
 TrimLoop::TrimLoop(std::vector<NurbsCurve2> curves, double closing_tolerance)
@@ -151,6 +166,10 @@ TrimLoop::signedArea() const
   const Eigen::Vector2d origin = startOf(curves_.front());
   double sum = 0.0;
   for (const NurbsCurve2& curve : curves_) {
+    if (curve.knots().degree() == 1 && curve.knots().isClamped()) {
+      sum += polygonSector(curve, origin); // weights do not bend straight pieces
+      continue;
+    }
     const auto integrand = [&](double t) {
       const std::vector<Eigen::Vector2d> c = curve.derivatives(t, 1);
       const Eigen::Vector2d arm = c[0] - origin;

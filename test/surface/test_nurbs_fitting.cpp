@@ -1,48 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 
-#include <pcl/surface/nurbs/conics.h>
-#include <pcl/surface/nurbs_fitting.h>
+#include "fitting_clouds.h"
 
-#include <pcl/point_types.h>
+#include <pcl/surface/nurbs/conics.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 namespace {
 
 using pcl::nurbs::NurbsSurface;
 using pcl::nurbs::Parameterization;
-using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-using Fitting = pcl::NurbsFitting<pcl::PointXYZ>;
+using namespace pcl::nurbs::test;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-template <typename Position>
-Cloud::Ptr
-scattered(Position position, int count, double sigma, unsigned seed)
-{
-  std::mt19937_64 engine(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::normal_distribution<double> normal(0.0, 1.0);
-  Cloud::Ptr cloud(new Cloud);
-  for (int k = 0; k < count; ++k) {
-    const double u = uniform(engine);
-    const double v = uniform(engine);
-    const Eigen::Vector3d p = position(u, v, sigma * normal(engine));
-    cloud->emplace_back(p.x(), p.y(), p.z());
-  }
-  return cloud;
-}
-
-Eigen::Vector3d
-hill(double u, double v, double noise)
-{
-  return {u, v, 2.0 + 0.2 * std::cos(2.0 * u) * std::cos(v) + noise};
-}
 
 /** Unit cylinder about a slanted axis. */
 Eigen::Vector3d
@@ -96,7 +70,7 @@ planeImage(const Eigen::Vector3d& normal, double distance)
 TEST(NurbsFitting, ScatteredHillIsFittedAtItsNoise)
 {
   Fitting fitting;
-  fitting.setInputCloud(scattered(hill, 20000, 0.003, 1));
+  fitting.setInputCloud(scatteredCloud(hill, 20000, 0.003, 1));
   fitting.setHoldOut(7);
   NurbsSurface surface;
   ASSERT_TRUE(fitting.compute(surface));
@@ -111,7 +85,7 @@ TEST(NurbsFitting, CylinderIsExact)
   for (double share : {0.4, 0.9}) { // of a half turn to each side
     Fitting fitting;
     fitting.setParameterization(Parameterization::Cylinder);
-    fitting.setInputCloud(scattered(
+    fitting.setInputCloud(scatteredCloud(
         [&](double u, double v, double) { return pipe(share * M_PI * u, v, 0.0); },
         5000,
         0.0,
@@ -131,7 +105,7 @@ TEST(NurbsFitting, NoisyClosedCylinderMeetsItself)
   Fitting fitting;
   fitting.setParameterization(Parameterization::Cylinder);
   fitting.setClosed(true);
-  fitting.setInputCloud(scattered(
+  fitting.setInputCloud(scatteredCloud(
       [](double u, double v, double noise) { return pipe(M_PI * u, v, noise); },
       20000,
       0.005,
@@ -150,7 +124,7 @@ TEST(NurbsFitting, FixedAxisIsKept)
   Fitting fitting;
   fitting.setParameterization(Parameterization::Cylinder);
   fitting.setAxis(Eigen::Vector3d(0.5, -1.0, 4.0), Eigen::Vector3d(0.3, 1.0, 0.2));
-  fitting.setInputCloud(scattered(
+  fitting.setInputCloud(scatteredCloud(
       [](double u, double v, double) { return pipe(u, v, 0.0); }, 40, 0.0, 4));
   NurbsSurface surface;
   ASSERT_TRUE(fitting.compute(surface));
@@ -160,7 +134,7 @@ TEST(NurbsFitting, FixedAxisIsKept)
 TEST(NurbsFitting, AutoTakesTheCylinderForAPipe)
 {
   Fitting fitting;
-  fitting.setInputCloud(scattered(
+  fitting.setInputCloud(scatteredCloud(
       [](double u, double v, double noise) { return pipe(0.8 * M_PI * u, v, noise); },
       8000,
       0.002,
@@ -217,7 +191,7 @@ TEST(NurbsFitting, GridGivesColumnAndRow)
 
 TEST(NurbsFitting, GivenParametersFixedKnotsAndWeights)
 {
-  const Cloud::Ptr cloud = scattered(
+  const Cloud::Ptr cloud = scatteredCloud(
       [](double u, double v, double) {
         return Eigen::Vector3d(
             0.6 * u, 0.6 * v, std::sqrt(1.0 - 0.36 * (u * u + v * v)));
@@ -246,7 +220,7 @@ TEST(NurbsFitting, GivenParametersFixedKnotsAndWeights)
 
 TEST(NurbsFitting, IndicesChooseTheSegment)
 {
-  Cloud::Ptr cloud = scattered(hill, 5000, 0.0, 7);
+  Cloud::Ptr cloud = scatteredCloud(hill, 5000, 0.0, 7);
   const auto half = cloud->size() / 2;
   pcl::IndicesPtr indices(new pcl::Indices);
   for (std::size_t k = 0; k < cloud->size(); ++k)
@@ -261,70 +235,6 @@ TEST(NurbsFitting, IndicesChooseTheSegment)
   ASSERT_TRUE(fitting.compute(surface));
   EXPECT_EQ(fitting.getUsedIndices().size(), half);
   EXPECT_LT(fitting.getReport().max, 1e-3);
-}
-
-TEST(NurbsFitting, HostileCloudsNeverThrow)
-{
-  const auto tryOut = [](const Cloud::Ptr& cloud, bool expected) {
-    for (Parameterization parameterization : {Parameterization::Auto,
-                                              Parameterization::Grid,
-                                              Parameterization::Plane,
-                                              Parameterization::Cylinder,
-                                              Parameterization::Perspective,
-                                              Parameterization::Given}) {
-      Fitting fitting;
-      fitting.setInputCloud(cloud);
-      fitting.setParameterization(parameterization);
-      NurbsSurface surface;
-      bool done = true;
-      EXPECT_NO_THROW(done = fitting.compute(surface));
-      EXPECT_EQ(done, fitting.getReport().fitted_points > 0);
-      EXPECT_TRUE(done || !fitting.getReport().message.empty());
-      EXPECT_TRUE(done == expected || parameterization != Parameterization::Plane);
-    }
-  };
-  tryOut(nullptr, false);
-  tryOut(Cloud::Ptr(new Cloud), false);
-  tryOut(scattered([](double, double, double) { return Eigen::Vector3d(NAN, 0, 0); },
-                   50,
-                   0.0,
-                   8),
-         false);
-  tryOut(scattered(hill, 1, 0.0, 9), true);
-  tryOut(scattered([](double, double, double) { return Eigen::Vector3d(1, 2, 3); },
-                   100,
-                   0.0,
-                   10),
-         true);
-  tryOut(
-      scattered([](double u, double, double) { return Eigen::Vector3d(u, 2 * u, 0); },
-                100,
-                0.0,
-                11),
-      true);
-  for (double scale : {1e-6, 1e6})
-    tryOut(scattered([&](double u,
-                         double v,
-                         double n) { return Eigen::Vector3d(scale * hill(u, v, n)); },
-                     500,
-                     0.0,
-                     12),
-           true);
-}
-
-TEST(NurbsFitting, BadOptionsAreReported)
-{
-  Fitting fitting;
-  fitting.setInputCloud(scattered(hill, 500, 0.0, 13));
-  NurbsSurface surface;
-  fitting.setNoise(-1.0);
-  EXPECT_FALSE(fitting.compute(surface));
-  fitting.setNoise(0.0);
-  fitting.setNumberOfThreads(0);
-  EXPECT_FALSE(fitting.compute(surface));
-  fitting.setNumberOfThreads(1);
-  EXPECT_TRUE(fitting.compute(surface));
-  EXPECT_TRUE(fitting.getReport().message.empty());
 }
 
 } // namespace

@@ -14,46 +14,55 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
-/** Moment tables of a Gram matrix: entry ((i, j), (k, l)) of the tensor-product
- * Chebyshev basis, by T_i T_k = (T_{i+k} + T_{|i-k|}) / 2 in both directions. */
-void
-chebyshevGram(const double* table, int stride, int p, int q, Eigen::MatrixXd& gram)
-{
-  const auto at = [=](int a, int b) { return table[a * stride + b]; };
-  for (int i = 0; i <= p; ++i)
-    for (int j = 0; j <= q; ++j)
-      for (int k = 0; k <= i; ++k)
-        for (int l = 0; l <= q; ++l) {
-          const int dj = std::abs(j - l);
-          const double value = 0.25 * (at(i + k, j + l) + at(i - k, j + l) +
-                                       at(i + k, dj) + at(i - k, dj));
-          gram(i * (q + 1) + j, k * (q + 1) + l) = value;
-          gram(k * (q + 1) + l, i * (q + 1) + j) = value;
-        }
-}
+using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/** Tensor product of the Chebyshev coefficients of both directions. */
-Eigen::MatrixXd
-basisTransform(const Eigen::MatrixXd& u, const Eigen::MatrixXd& v)
+/** Chebyshev coefficients of the products of two basis functions of a cell, one row per
+ * pair (r, k <= r), by T_i T_j = (T_{i+j} + T_{|i-j|}) / 2. */
+Table
+basisProducts(const Eigen::MatrixXd& basis)
 {
-  Eigen::MatrixXd result(u.rows() * v.rows(), u.cols() * v.cols());
-  for (Eigen::Index r = 0; r < u.rows(); ++r)
-    for (Eigen::Index c = 0; c < u.cols(); ++c)
-      result.block(r * v.rows(), c * v.cols(), v.rows(), v.cols()) = u(r, c) * v;
+  const Eigen::Index size = basis.rows();
+  Table result = Table::Zero(size * (size + 1) / 2, 2 * size - 1);
+  for (Eigen::Index r = 0, pair = 0; r < size; ++r)
+    for (Eigen::Index k = 0; k <= r; ++k, ++pair)
+      for (Eigen::Index i = 0; i < size; ++i)
+        for (Eigen::Index j = 0; j < size; ++j) {
+          const double half = 0.5 * basis(r, i) * basis(k, j);
+          result(pair, i + j) += half;
+          result(pair, std::abs(i - j)) += half;
+        }
   return result;
 }
+
+/** Basis functions and their products in every cell of one direction. */
+struct DirectionTables {
+  explicit DirectionTables(const KnotCells& cells)
+  {
+    for (int cell = 0; cell < cells.count(); ++cell) {
+      basis.emplace_back(cells.chebyshev(cell));
+      products.push_back(basisProducts(cells.chebyshev(cell)));
+    }
+  }
+
+  std::vector<Table> basis;
+  std::vector<Table> products;
+};
 
 /** Reduces one cell after the other with its scratch memory kept. */
 class CellReducer {
 public:
-  CellReducer(const CellPoints& points, const PointRows& rows)
+  CellReducer(const CellPoints& points,
+              const PointRows& rows,
+              const DirectionTables& tables_u,
+              const DirectionTables& tables_v)
       : points_(points),
         rows_(rows),
+        tables_u_(tables_u),
+        tables_v_(tables_v),
         p_(points.cells_u.degree()),
         q_(points.cells_v.degree()),
         degree_(std::max(p_, q_)),
-        size_((p_ + 1) * (q_ + 1)),
-        chebyshev_(size_, size_)
+        size_((p_ + 1) * (q_ + 1))
   {
   }
 
@@ -68,9 +77,8 @@ public:
     result.constant = rows_.squares.middleRows(begin, count).colwise().sum();
     if (count == 0)
       return;
-    const int b = points_.cells_v.count();
-    transform_ = basisTransform(points_.cells_u.chebyshev(cell / b),
-                                points_.cells_v.chebyshev(cell % b));
+    cell_u_ = static_cast<std::size_t>(cell / points_.cells_v.count());
+    cell_v_ = static_cast<std::size_t>(cell % points_.cells_v.count());
     for (int row = 0, pair = 0; row < c; ++row)
       for (int column = row; column < c; ++column, ++pair)
         addGram(begin, count, pair, row, column, result.gram);
@@ -92,18 +100,49 @@ private:
                         table_.data());
   }
 
+  /** Moments up to the given degrees as a matrix. */
+  auto
+  moments(int degree_u, int degree_v, int stride) const
+  {
+    return Eigen::Map<const Table, 0, Eigen::OuterStride<>>(
+        table_.data(), degree_u + 1, degree_v + 1, Eigen::OuterStride<>(stride));
+  }
+
+  /** Sums over the points of all products of four basis functions, two of each
+   * direction: one direction after the other. */
   void
   addGram(int begin, int count, int pair, int row, int column, Eigen::MatrixXd& gram)
   {
     sumMoments(2 * degree_, begin, count, rows_.gram.col(pair).data());
-    chebyshevGram(table_.data(), momentStride(2 * degree_), p_, q_, chebyshev_);
-    product_.noalias() = transform_ * chebyshev_;
-    block_.noalias() = product_ * transform_.transpose();
+    const Table& products_u = tables_u_.products[cell_u_];
+    const Table& products_v = tables_v_.products[cell_v_];
+    half_.noalias() =
+        products_u.lazyProduct(moments(2 * p_, 2 * q_, momentStride(2 * degree_)));
+    pairs_.noalias() = half_.lazyProduct(products_v.transpose());
+    for (int r = 0, pair_u = 0; r <= p_; ++r)
+      for (int k = 0; k <= r; ++k, ++pair_u) {
+        scatter(pair_u, r, k, row, column, gram);
+        if (k != r)
+          scatter(pair_u, k, r, row, column, gram);
+      }
+  }
+
+  /** Entries of the pair (r, k) of functions of u in both triangles. */
+  void
+  scatter(int pair_u, int r, int k, int row, int column, Eigen::MatrixXd& gram) const
+  {
     const int c = rows_.channels;
-    for (int i = 0; i < size_; ++i)
-      for (int k = 0; k < size_; ++k) {
-        gram(i * c + row, k * c + column) = block_(i, k);
-        gram(k * c + column, i * c + row) = block_(i, k);
+    const double* value = &pairs_(pair_u, 0);
+    for (int s = 0; s <= q_; ++s)
+      for (int l = 0; l <= s; ++l, ++value) {
+        const int first = r * (q_ + 1);
+        const int second = k * (q_ + 1);
+        gram((first + s) * c + row, (second + l) * c + column) = *value;
+        gram((first + l) * c + row, (second + s) * c + column) = *value;
+        if (row != column) {
+          gram((second + l) * c + column, (first + s) * c + row) = *value;
+          gram((second + s) * c + column, (first + l) * c + row) = *value;
+        }
       }
   }
 
@@ -112,21 +151,23 @@ private:
   {
     const int column = channel * rows_.right_hand_sides + k;
     sumMoments(degree_, begin, count, rows_.moments.col(column).data());
-    const int stride = momentStride(degree_);
-    Eigen::VectorXd sums(size_);
-    for (int i = 0; i <= p_; ++i)
-      for (int j = 0; j <= q_; ++j)
-        sums(i * (q_ + 1) + j) = table_(i * stride + j);
-    const Eigen::VectorXd values = transform_ * sums;
+    half_.noalias() =
+        tables_u_.basis[cell_u_].lazyProduct(moments(p_, q_, momentStride(degree_)));
+    pairs_.noalias() = half_.lazyProduct(tables_v_.basis[cell_v_].transpose());
     for (int i = 0; i < size_; ++i)
-      rhs(i * rows_.channels + channel, k) = values(i);
+      rhs(i * rows_.channels + channel, k) = pairs_.data()[i];
   }
 
   const CellPoints& points_;
   const PointRows& rows_;
+  const DirectionTables& tables_u_;
+  const DirectionTables& tables_v_;
   int p_, q_, degree_, size_;
-  Eigen::MatrixXd chebyshev_, transform_, product_, block_;
+  std::size_t cell_u_ = 0;
+  std::size_t cell_v_ = 0;
   Eigen::VectorXd table_;
+  Table half_;  // the direction of u is done
+  Table pairs_; // both are
 };
 
 } // namespace
@@ -178,9 +219,11 @@ std::vector<CellEquations>
 reduceCells(const CellPoints& points, const PointRows& rows, int threads)
 {
   std::vector<CellEquations> cells(static_cast<std::size_t>(points.numCells()));
+  const DirectionTables tables_u(points.cells_u);
+  const DirectionTables tables_v(points.cells_v);
 #pragma omp parallel num_threads(threads) if (threads > 1)
   {
-    CellReducer reducer(points, rows);
+    CellReducer reducer(points, rows, tables_u, tables_v);
 #pragma omp for schedule(dynamic, 8)
     for (int cell = 0; cell < points.numCells(); ++cell)
       reducer.reduce(cell, cells[static_cast<std::size_t>(cell)]);

@@ -3,18 +3,12 @@
 
 #include "chebyshev_moments.h"
 
+#include "runtime_simd.h"
+
 #include <pcl/surface/nurbs/knot_vector.h>
 
 #include <algorithm>
 #include <array>
-
-// The inner loops take plain arrays only, so an AVX2 version can be chosen at run time
-// without touching the alignment of any type that crosses the library border.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_THREAD__)
-#define PCL_NURBS_RUNTIME_SIMD __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define PCL_NURBS_RUNTIME_SIMD
-#endif
 
 namespace pcl {
 namespace nurbs {

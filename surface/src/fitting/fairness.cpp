@@ -77,16 +77,13 @@ forEachCellEnergy(const CellPoints& points,
     const int b = points.cells_v.count();
     const DerivativeGrams& u = grams_u[static_cast<std::size_t>(cell / b)];
     const DerivativeGrams& v = grams_v[static_cast<std::size_t>(cell % b)];
-    for (int row = 0; row < size; ++row)
-      for (int column = 0; column < size; ++column) {
-        const int i = row / size_v, j = row % size_v;
-        const int k = column / size_v, l = column % size_v;
-        energy(row, column) =
-            weights.thin_plate *
-                (u[2](i, k) * v[0](j, l) + 2.0 * u[1](i, k) * v[1](j, l) +
-                 u[0](i, k) * v[2](j, l)) +
-            weights.membrane * (u[1](i, k) * v[0](j, l) + u[0](i, k) * v[1](j, l));
-      }
+    for (int i = 0; i <= points.cells_u.degree(); ++i)
+      for (int k = 0; k <= points.cells_u.degree(); ++k)
+        energy.block(i * size_v, k * size_v, size_v, size_v) =
+            (weights.thin_plate * u[2](i, k) + weights.membrane * u[1](i, k)) * v[0] +
+            (2.0 * weights.thin_plate * u[1](i, k) + weights.membrane * u[0](i, k)) *
+                v[1] +
+            weights.thin_plate * u[0](i, k) * v[2];
     visit(cell, energy);
   }
 }

@@ -38,6 +38,13 @@ requireValid(const FitPoints& points, const SurfaceFitOptions& options)
     throw std::invalid_argument("surface fit: an option is out of range");
 }
 
+/** Whether no copy is needed: a million points take 48 MB. */
+bool
+isFittedAsItIs(const FitPoints& points, const SurfaceFitOptions& options)
+{
+  return options.hold_out_every == 0 && points.sigma.size() != 0;
+}
+
 FitPoints
 select(const FitPoints& points, const std::vector<Eigen::Index>& which)
 {
@@ -117,8 +124,11 @@ totalInformation(const std::vector<CellEquations>& cells)
 } // namespace
 
 SplitPoints::SplitPoints(const FitPoints& points, const SurfaceFitOptions& options)
+    : fitted(isFittedAsItIs(points, options) ? points : selected_)
 {
   requireValid(points, options);
+  if (&fitted == &points)
+    return;
   std::vector<Eigen::Index> fit;
   std::vector<Eigen::Index> hold;
   for (Eigen::Index k = 0; k < points.positions.cols(); ++k) {
@@ -126,7 +136,7 @@ SplitPoints::SplitPoints(const FitPoints& points, const SurfaceFitOptions& optio
                       k % options.hold_out_every == options.hold_out_every - 1;
     (held ? hold : fit).push_back(k);
   }
-  fitted = select(points, fit);
+  selected_ = select(points, fit);
   held_out = select(points, hold);
 }
 
@@ -214,11 +224,12 @@ orthogonalDistances(const NurbsSurface& surface,
   if (parameters.cols() != positions.cols())
     throw std::invalid_argument("orthogonalDistances: one (u, v) per point is needed");
   constexpr int kSteps = 10;
+  constexpr double kLastStep = 1e-6;
   Eigen::VectorXd result(positions.cols());
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
-    const SurfaceJet1 jet =
-        projectFrom(surface, positions.col(k), kSteps, 0.0, parameters.col(k));
+    const SurfaceJet1 jet = projectFrom(
+        surface, positions.col(k), kSteps, 0.0, kLastStep, parameters.col(k));
     const Eigen::Vector3d offset = positions.col(k) - jet.position;
     result(k) = std::copysign(offset.norm(), offset.dot(jet.du.cross(jet.dv)));
   }

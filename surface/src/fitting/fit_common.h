@@ -15,13 +15,23 @@ namespace pcl {
 namespace nurbs {
 
 /** \brief The points that are fitted and, apart, those that are only measured. */
-struct SplitPoints {
-  FitPoints fitted; /**< sigma is filled in, parameters kept if there were any */
-  FitPoints held_out;
+class SplitPoints {
+  FitPoints selected_; // unless all points are fitted as they are
 
-  /** \throws std::invalid_argument if there is nothing to fit, a value is not finite, a
+public:
+  /** \param[in] points must outlive this
+   * \param[in] options tell which points are held out
+   * \throws std::invalid_argument if there is nothing to fit, a value is not finite, a
    * count does not match or a sigma is not positive */
   SplitPoints(const FitPoints& points, const SurfaceFitOptions& options);
+
+  SplitPoints(const SplitPoints&) = delete;
+  SplitPoints&
+  operator=(const SplitPoints&) = delete;
+
+  /** Sigma is filled in, parameters kept if there were any. */
+  const FitPoints& fitted;
+  FitPoints held_out;
 };
 
 /** \brief Limits for Ceres from the options of a fit. */

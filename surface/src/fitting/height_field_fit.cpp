@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 
+#include "cell_values.h"
 #include "fit_common.h"
 #include "knot_search.h"
 #include "orthogonal_problem.h"
@@ -83,58 +84,6 @@ robustWeights(const Eigen::VectorXd& residual, const SurfaceFitOptions& options)
       [&](double r) { return evaluateLoss(options.loss, scale, r * r).slope; });
 }
 
-/** Sum of polynomial(i, j) T_i(s) T_j(t), by Clenshaw's recurrence in both directions.
- */
-double
-evaluateChebyshevProduct(const Eigen::MatrixXd& polynomial, double s, double t)
-{
-  double u_next = 0.0;
-  double u_after = 0.0;
-  for (Eigen::Index i = polynomial.rows() - 1; i >= 0; --i) {
-    double v_next = 0.0;
-    double v_after = 0.0;
-    for (Eigen::Index j = polynomial.cols() - 1; j > 0; --j) {
-      const double v = polynomial(i, j) + 2.0 * t * v_next - v_after;
-      v_after = v_next;
-      v_next = v;
-    }
-    const double row = polynomial(i, 0) + t * v_next - v_after;
-    const double u = row + (i > 0 ? 2.0 : 1.0) * s * u_next - u_after;
-    u_after = u_next;
-    u_next = u;
-  }
-  return u_next;
-}
-
-/** Heights at all points, from the Chebyshev form of each cell's polynomial. */
-Eigen::VectorXd
-evaluateHeights(const CellPoints& points, const Eigen::VectorXd& coefficients)
-{
-  const int p = points.cells_u.degree();
-  const int q = points.cells_v.degree();
-  Eigen::VectorXd result(static_cast<Eigen::Index>(points.order.size()));
-  for (int cell = 0; cell < points.numCells(); ++cell) {
-    const int begin = points.begin[static_cast<std::size_t>(cell)];
-    const int end = points.begin[static_cast<std::size_t>(cell) + 1];
-    if (begin == end)
-      continue;
-    const std::vector<int> controls = points.controls(cell);
-    Eigen::MatrixXd net(p + 1, q + 1);
-    for (int i = 0; i <= p; ++i)
-      for (int j = 0; j <= q; ++j)
-        net(i, j) = coefficients(controls[static_cast<std::size_t>(i * (q + 1) + j)]);
-    const int b = points.cells_v.count();
-    const Eigen::MatrixXd polynomial = points.cells_u.chebyshev(cell / b).transpose() *
-                                       net * points.cells_v.chebyshev(cell % b);
-    for (int k = begin; k < end; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      result(points.order[at]) =
-          evaluateChebyshevProduct(polynomial, points.s[at], points.t[at]);
-    }
-  }
-  return result;
-}
-
 /** Heights that fit best along the direction of h, by iteratively reweighted least
  * squares if there is a loss. */
 Eigen::VectorXd
@@ -165,9 +114,9 @@ solveHeights(const KnotVector& knots_u,
   for (int round = 0; round < rounds; ++round) {
     solve(quick);
     const Eigen::VectorXd previous = std::move(robust);
-    robust = robustWeights((local.heights - evaluateHeights(cells, unknowns.col(0)))
-                               .cwiseQuotient(local.sigma),
-                           options);
+    robust = robustWeights(
+        (local.heights - evaluateCells(cells, unknowns)).cwiseQuotient(local.sigma),
+        options);
     if (previous.size() != 0 && (robust - previous).cwiseAbs().mean() < kSteadyWeights)
       break;
   }
@@ -200,15 +149,17 @@ fitHeightField(const HeightFieldFrame& frame,
                const SurfaceFitOptions& options)
 {
   SplitPoints split(points, options);
-  const LocalPoints local = toLocal(frame, split.fitted);
+  LocalPoints local = toLocal(frame, split.fitted);
   if (split.held_out.positions.cols() > 0)
     split.held_out.parameters = toLocal(frame, split.held_out).parameters;
   SurfaceFit fit;
   Eigen::MatrixXd heights =
       solveHeights(knots_u, knots_v, local, options, fit.report).transpose();
   fit.surface = frame.surface(knots_u, knots_v, heights.transpose());
-  fit.parameters = local.parameters;
-  if (options.distance != FitDistance::Parametric) {
+  if (options.distance == FitDistance::Parametric) {
+    fit.parameters = std::move(local.parameters);
+  }
+  else {
     const HeightUnknowns unknowns(frame, knots_u, knots_v);
     OrthogonalProblem problem(unknowns,
                               fit.surface,

@@ -3,10 +3,10 @@
 
 #pragma once
 
+#include "band_cholesky.h"
 #include "cell_equations.h"
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 
 #include <vector>
 
@@ -27,24 +27,28 @@ public:
    * \param[in] fixed per control point: whether it keeps its value; empty for none
    * \param[in,out] unknowns (control points) x (right-hand sides); the fixed values on
    *                input
-   * \return false if the equations do not determine the unknowns */
+   * \return false if the equations do not determine the unknowns; the unknowns then are
+   *         as before */
   bool
   solve(const std::vector<bool>& fixed, Eigen::MatrixXd& unknowns) const;
 
-  /** \brief Value of the quadratic, one per right-hand side. */
-  Eigen::VectorXd
-  value(const Eigen::MatrixXd& unknowns) const;
-
-  const Eigen::SparseMatrix<double>&
-  gram() const
+private:
+  /** Position of a control point: the shorter side of the net runs fastest, which makes
+   * the band narrow. */
+  Eigen::Index
+  position(Eigen::Index control) const
   {
-    return gram_;
+    return u_fastest_ ? control % n_v_ * n_u_ + control / n_v_ : control;
   }
 
-private:
-  Eigen::SparseMatrix<double> gram_; // both triangles
+  static void
+  fix(Eigen::Index at, BandMatrix& gram, Eigen::MatrixXd& rhs);
+
+  Eigen::Index n_u_;
+  Eigen::Index n_v_;
+  bool u_fastest_;
+  BandMatrix gram_;
   Eigen::MatrixXd rhs_;
-  Eigen::VectorXd constant_;
 };
 
 } // namespace nurbs

@@ -141,6 +141,7 @@ OrthogonalProblem::evaluatePoints(const NurbsSurface& surface,
                                   PointTerms& terms) const
 {
   constexpr int kSteps = 3; // the residual is small beside the radius of curvature
+  constexpr double kLastStep = 1e-8; // the derivatives are used as well
   constexpr double kDomainMargin = 0.5;
   const Eigen::Index count = positions_.cols();
   const int rows = rowsPerPoint();
@@ -153,7 +154,7 @@ OrthogonalProblem::evaluatePoints(const NurbsSurface& surface,
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::Vector3d point = positions_.col(k);
     const SurfaceJet1 jet =
-        projectFrom(surface, point, kSteps, margin, parameters.col(k));
+        projectFrom(surface, point, kSteps, margin, kLastStep, parameters.col(k));
     const Eigen::Vector2d uv = parameters.col(k);
     const Eigen::Matrix3d frame = surfaceFrame(jet); // normal, then two tangents
     const Eigen::Vector3d offset = point - jet.position;

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <pcl/surface/nurbs/conics.h>
 #include <pcl/surface/nurbs_fitting.h>
 
 #include <pcl/search/kdtree.h>
@@ -14,14 +13,6 @@
 #include <stdexcept>
 
 namespace pcl {
-
-template <typename PointT>
-void
-NurbsFitting<PointT>::setAxis(const Eigen::Vector3d& origin,
-                              const Eigen::Vector3d& direction)
-{
-  options_.base = nurbs::frameFromAxis(origin, direction);
-}
 
 template <typename PointT>
 bool

@@ -44,7 +44,7 @@ enum class FitDistance {
 enum class LinearSolver {
   Auto,    /**< Ceres for small nets, Cholesky for large ones */
   Ceres,   /**< one residual block per knot cell and coordinate */
-  Cholesky /**< one sparse factor of the normal equations for all coordinates */
+  Cholesky /**< one band factor of the normal equations for all coordinates */
 };
 
 /** \brief Options of the search for degrees and knots (salient points by group
