@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#pragma once
+
+#include "bucket_lists.h"
+#include "disjoint_sets.h"
+
+#include <pcl/segmentation/random_walk.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl {
+namespace nurbs {
+
+/** Greedy selection of entropyRateSuperpixels(). An edge's key is its gain times the
+ * total weight, less what a first edge gains in balance:
+ *
+ * key = 2W gain(H) + scale [f(m) + f(n) - f(m + n) + f(2)],  f(x) = x log x,
+ *
+ * for groups of m and n nodes. Keys only fall, so the queue is a monotone one: edges
+ * wait in buckets of their last known keys, and only the bucket whose turn it is has
+ * exact keys and an order. */
+class ForestGreedy {
+public:
+  /** \param[in] graph valid graph
+   * \param[in] candidates edges to choose from, by number
+   * \param[in] nodes number of nodes they join */
+  ForestGreedy(const WeightedGraph& graph,
+               std::vector<std::uint32_t> candidates,
+               std::size_t nodes);
+
+  /** Largest gain in entropy rate of a first edge. */
+  double
+  firstGain() const;
+
+  /** Select edges until so many groups are left.
+   * \param[in] groups number of groups
+   * \param[in] lambda factor of the balance term */
+  void
+  run(std::size_t groups, double lambda);
+
+  /** Selected edges in their order. */
+  const std::vector<std::uint32_t>&
+  selected() const
+  {
+    return selected_;
+  }
+
+  double
+  entropyRate() const
+  {
+    return walk_.entropyRate();
+  }
+
+  DisjointSets&
+  sets()
+  {
+    return sets_;
+  }
+
+private:
+  /** What the root of a group knows. */
+  struct Group {
+    std::uint32_t size = 1;
+    std::uint32_t changed = 0; // number of edges selected when it last grew
+  };
+
+  struct Candidate {
+    double key;
+    std::uint32_t edge;
+    std::uint32_t rated; // number of edges selected when the key was found
+  };
+
+  /** Whether a is taken after b. */
+  struct Later {
+    bool
+    operator()(const Candidate& a, const Candidate& b) const
+    {
+      return a.key != b.key ? a.key < b.key : a.edge > b.edge;
+    }
+  };
+
+  double
+  keyOf(const WeightedEdge& edge, std::uint32_t root_a, std::uint32_t root_b) const;
+
+  double
+  sizeTerm(std::uint32_t size) const;
+
+  void
+  rateWaiting();
+
+  void
+  distributeWaiting();
+
+  std::size_t
+  bucketOf(double key) const;
+
+  void
+  openBucket(std::size_t bucket);
+
+  void
+  consider(std::size_t bucket, std::uint32_t edge);
+
+  void
+  select(std::uint32_t edge);
+
+  bool
+  done() const
+  {
+    return groups_left_ <= groups_wanted_;
+  }
+
+  const WeightedGraph& graph_;
+  std::size_t nodes_;
+  std::size_t groups_left_;
+  std::size_t groups_wanted_ = 1;
+  EdgeSubsetWalk walk_;
+  DisjointSets sets_;
+  std::vector<Group> groups_;
+  std::vector<double> size_terms_;
+  double scale_ = 0.0;
+  std::vector<std::uint32_t> waiting_; // edges whose keys are below all buckets
+  std::vector<float> waiting_keys_;    // rounded up
+  float highest_ = 0.0F;
+  double buckets_per_key_ = 0.0;
+  BucketLists lists_;
+  std::vector<std::uint32_t> opened_;
+  std::vector<Candidate> heap_;
+  std::vector<std::uint32_t> selected_;
+};
+
+} // namespace nurbs
+} // namespace pcl
