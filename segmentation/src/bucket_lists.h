@@ -15,7 +15,7 @@ namespace nurbs {
  * lengths of the lists, and reading is sequential. */
 class BucketLists {
 public:
-  explicit BucketLists(std::size_t buckets) : heads_(buckets, kNone) {}
+  explicit BucketLists(std::size_t buckets) : heads_(buckets) {}
 
   std::size_t
   size() const
@@ -26,15 +26,13 @@ public:
   void
   push(std::size_t bucket, std::uint32_t number)
   {
-    std::uint32_t head = heads_[bucket];
-    if (head == kNone || chunks_[head].count == kPerChunk) {
+    Head& head = heads_[bucket];
+    if (head.count == kPerChunk) {
       const std::uint32_t fresh = takeChunk();
-      chunks_[fresh].next = head;
-      chunks_[fresh].count = 0;
-      head = heads_[bucket] = fresh;
+      chunks_[fresh].next = head.chunk;
+      head = {fresh, 0};
     }
-    Chunk& chunk = chunks_[head];
-    chunk.numbers[chunk.count++] = number;
+    chunks_[head.chunk].numbers[head.count++] = number;
   }
 
   /** Move a list to a vector; its order is arbitrary but the same every time. */
@@ -42,24 +40,30 @@ public:
   take(std::size_t bucket, std::vector<std::uint32_t>& numbers)
   {
     numbers.clear();
-    for (std::uint32_t head = heads_[bucket]; head != kNone;) {
-      const Chunk& chunk = chunks_[head];
+    Head& head = heads_[bucket];
+    while (head.chunk != kNone) {
+      const Chunk& chunk = chunks_[head.chunk];
       numbers.insert(
-          numbers.end(), chunk.numbers.begin(), chunk.numbers.begin() + chunk.count);
-      free_.push_back(head);
-      head = chunk.next;
+          numbers.end(), chunk.numbers.begin(), chunk.numbers.begin() + head.count);
+      free_.push_back(head.chunk);
+      head = {chunk.next, kPerChunk};
     }
-    heads_[bucket] = kNone;
   }
 
 private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  static constexpr std::uint32_t kPerChunk = 30;
+  static constexpr std::uint32_t kPerChunk = 31;
 
   struct Chunk {
     std::uint32_t next;
-    std::uint32_t count;
     std::array<std::uint32_t, kPerChunk> numbers;
+  };
+
+  /** First chunk of a list, the only one that may have room. A list without chunks
+   * looks full. */
+  struct Head {
+    std::uint32_t chunk = kNone;
+    std::uint32_t count = kPerChunk;
   };
 
   std::uint32_t
@@ -76,7 +80,7 @@ private:
 
   std::vector<Chunk> chunks_;
   std::vector<std::uint32_t> free_;
-  std::vector<std::uint32_t> heads_;
+  std::vector<Head> heads_;
 };
 
 } // namespace nurbs

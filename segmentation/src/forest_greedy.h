@@ -4,7 +4,6 @@
 #pragma once
 
 #include "bucket_lists.h"
-#include "disjoint_sets.h"
 
 #include <pcl/segmentation/random_walk.h>
 
@@ -20,21 +19,24 @@ namespace nurbs {
  *
  * key = 2W gain(H) + scale [f(m) + f(n) - f(m + n) + f(2)],  f(x) = x log x,
  *
- * for groups of m and n nodes. Keys only fall, so the queue is a monotone one: edges
- * wait in buckets of their last known keys, and only the bucket whose turn it is has
- * exact keys and an order. */
+ * for groups of m and n nodes of M. Keys only fall, so the queue is a monotone one:
+ * edges wait in buckets of their last known keys, and only the bucket whose turn it is
+ * has exact keys and an order. */
 class ForestGreedy {
 public:
   /** \param[in] graph valid graph
    * \param[in] candidates edges to choose from, by number
-   * \param[in] nodes number of nodes they join */
+   * \param[in] members number of nodes they join */
   ForestGreedy(const WeightedGraph& graph,
                std::vector<std::uint32_t> candidates,
-               std::size_t nodes);
+               std::size_t members);
 
   /** Largest gain in entropy rate of a first edge. */
   double
-  firstGain() const;
+  firstGain() const
+  {
+    return first_gain_ / total_weight_;
+  }
 
   /** Select edges until so many groups are left.
    * \param[in] groups number of groups
@@ -52,20 +54,24 @@ public:
   double
   entropyRate() const
   {
-    return walk_.entropyRate();
+    return scaled_rate_ / total_weight_;
   }
 
-  DisjointSets&
-  sets()
+  /** The node that names the group of a node. O(1). */
+  std::uint32_t
+  groupOf(std::uint32_t node) const
   {
-    return sets_;
+    return nodes_[node].group;
   }
 
 private:
-  /** What the root of a group knows. */
-  struct Group {
-    std::uint32_t size = 1;
+  /** All that is known of a node, in half a cache line. */
+  struct alignas(32) Node {
+    SelfLoop loop;
+    std::uint32_t group = 0;   // the node that names its group and keeps its
+    std::uint32_t size = 1;    // size and the
     std::uint32_t changed = 0; // number of edges selected when it last grew
+    std::uint32_t next = 0;    // in the ring of the group's nodes
   };
 
   struct Candidate {
@@ -84,7 +90,7 @@ private:
   };
 
   double
-  keyOf(const WeightedEdge& edge, std::uint32_t root_a, std::uint32_t root_b) const;
+  keyOf(const WeightedEdge& edge, const Node& group_a, const Node& group_b) const;
 
   double
   sizeTerm(std::uint32_t size) const;
@@ -102,10 +108,16 @@ private:
   openBucket(std::size_t bucket);
 
   void
+  considerOpened(std::size_t bucket);
+
+  void
   consider(std::size_t bucket, std::uint32_t edge);
 
   void
   select(std::uint32_t edge);
+
+  void
+  join(std::uint32_t large, std::uint32_t small);
 
   bool
   done() const
@@ -114,12 +126,13 @@ private:
   }
 
   const WeightedGraph& graph_;
-  std::size_t nodes_;
+  std::size_t members_;
   std::size_t groups_left_;
   std::size_t groups_wanted_ = 1;
-  EdgeSubsetWalk walk_;
-  DisjointSets sets_;
-  std::vector<Group> groups_;
+  std::vector<Node> nodes_;
+  double total_weight_ = 0.0;
+  double scaled_rate_ = 0.0;
+  double first_gain_ = 0.0;
   std::vector<double> size_terms_;
   double scale_ = 0.0;
   std::vector<std::uint32_t> waiting_; // edges whose keys are below all buckets

@@ -3,7 +3,6 @@
 
 #include <pcl/segmentation/random_walk.h>
 
-#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -15,18 +14,7 @@ void
 requireWeight(float weight)
 {
   if (!std::isfinite(weight) || weight < 0.0F)
-    throw std::invalid_argument(
-        "random walk: weights must be finite and not negative");
-}
-
-void
-requireValid(const WeightedGraph& graph)
-{
-  for (const WeightedEdge& edge : graph.edges) {
-    if (edge.a >= graph.nodes || edge.b >= graph.nodes || edge.a == edge.b)
-      throw std::invalid_argument("random walk: an edge joins two nodes of the graph");
-    requireWeight(edge.weight);
-  }
+    throw std::invalid_argument("random walk: weights must be finite and not negative");
 }
 
 double
@@ -44,9 +32,28 @@ surprise(double probability)
 
 } // namespace
 
+void
+requireValidWeights(const GridGraph& graph)
+{
+  for (int d = 0; d < graph.numDirections(); ++d)
+    for (const float weight : graph.weight(d))
+      requireWeight(weight);
+}
+
+void
+requireValidGraph(const WeightedGraph& graph)
+{
+  for (const WeightedEdge& edge : graph.edges) {
+    if (edge.a >= graph.nodes || edge.b >= graph.nodes || edge.a == edge.b)
+      throw std::invalid_argument("random walk: an edge joins two nodes of the graph");
+    requireWeight(edge.weight);
+  }
+}
+
 WeightedGraph
 toWeightedGraph(const GridGraph& graph, float min_weight)
 {
+  requireValidWeights(graph);
   WeightedGraph list;
   list.nodes = graph.numCells();
   list.edges.reserve(graph.numEdges());
@@ -55,7 +62,6 @@ toWeightedGraph(const GridGraph& graph, float min_weight)
       if (graph.target(d)[i] == GridGraph::kNone)
         continue;
       const float weight = graph.weight(d)[i];
-      requireWeight(weight);
       if (weight > 0.0F && weight >= min_weight)
         list.edges.push_back({static_cast<std::uint32_t>(i),
                               static_cast<std::uint32_t>(graph.target(d)[i]),
@@ -67,7 +73,7 @@ toWeightedGraph(const GridGraph& graph, float min_weight)
 std::vector<double>
 nodeWeights(const WeightedGraph& graph)
 {
-  requireValid(graph);
+  requireValidGraph(graph);
   std::vector<double> weights(graph.nodes, 0.0);
   for (const WeightedEdge& edge : graph.edges) {
     weights[edge.a] += edge.weight;
@@ -159,20 +165,20 @@ EdgeSubsetWalk::EdgeSubsetWalk(const WeightedGraph& graph)
     loops_.push_back({weight, xLogX(weight)});
 }
 
-void
-EdgeSubsetWalk::add(const WeightedEdge& edge)
+double
+EdgeSubsetWalk::gain(const WeightedEdge& edge) const
 {
-  scaled_rate_ += scaledGain(edge);
-  shorten(edge.a, edge.weight);
-  shorten(edge.b, edge.weight);
+  if (!(edge.weight > 0.0F))
+    return 0.0;
+  return scaledEdgeGain(loops_[edge.a], loops_[edge.b], edge.weight) / total_;
 }
 
 void
-EdgeSubsetWalk::shorten(std::uint32_t node, double weight)
+EdgeSubsetWalk::add(const WeightedEdge& edge)
 {
-  Loop& loop = loops_[node];
-  loop.weight = std::max(0.0, loop.weight - weight); // rounding may leave less than 0
-  loop.term = xLogX(loop.weight);
+  rate_ += gain(edge);
+  loops_[edge.a].shorten(edge.weight);
+  loops_[edge.b].shorten(edge.weight);
 }
 
 } // namespace nurbs

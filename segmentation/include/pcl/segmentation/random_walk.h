@@ -29,20 +29,30 @@ struct WeightedGraph {
   std::vector<WeightedEdge> edges;
 };
 
+/** \brief Check the weights of a lattice. O(cells).
+ * \throws std::invalid_argument when one is negative, infinite or not a number
+ */
+PCL_NURBS_SEGMENTATION_EXPORT void
+requireValidWeights(const GridGraph& graph);
+
 /** \brief The edges of a lattice as a list, cell by cell; the nodes are its cells.
  * O(cells).
  * \param[in] graph lattice with weights
  * \param[in] min_weight edges with a smaller weight are left out, and so are those
  *            without any
- * \throws std::invalid_argument when a weight is negative, infinite or not a number
+ * \throws std::invalid_argument when weights are not valid (requireValidWeights())
  */
 PCL_NURBS_SEGMENTATION_EXPORT WeightedGraph
 toWeightedGraph(const GridGraph& graph, float min_weight = 0.0F);
 
-/** \brief W_i = sum_j W_ij for each node. O(nodes + edges); this and all functions
- * below need a valid graph:
+/** \brief Check a graph; so do all functions below. O(edges).
  * \throws std::invalid_argument when an edge ends outside of the graph or where it
  *         begins, or a weight is negative, infinite or not a number
+ */
+PCL_NURBS_SEGMENTATION_EXPORT void
+requireValidGraph(const WeightedGraph& graph);
+
+/** \brief W_i = sum_j W_ij for each node. O(nodes + edges), as all functions below.
  */
 PCL_NURBS_SEGMENTATION_EXPORT std::vector<double>
 nodeWeights(const WeightedGraph& graph);
@@ -76,7 +86,8 @@ entropyRate(const WeightedGraph& graph);
  * rate. */
 struct ConvexPair {
   double g; /**< sum_i mu_i log mu_i */
-  double h; /**< sum_ij (W_ij / 2W) log (W_ij / 2W) over ordered pairs, 2W = sum_k W_k */
+  double
+      h; /**< sum_ij (W_ij / 2W) log (W_ij / 2W) over ordered pairs, 2W = sum_k W_k */
 };
 
 /** \brief The entropy rate as a difference of convex functions of the normalised
@@ -102,15 +113,41 @@ xLogX(double x)
   return x > 0.0 ? x * std::log(x) : 0.0;
 }
 
+/** \brief Step of a walk from a node to itself. */
+struct SelfLoop {
+  double weight = 0.0; /**< s */
+  double term = 0.0;   /**< s log s */
+
+  /** \brief By how much \a term falls when an edge takes over a part of the weight. */
+  double
+  loss(double part) const
+  {
+    return term - xLogX(weight - part);
+  }
+
+  /** \brief Let an edge take over a part of the weight. */
+  void
+  shorten(double part)
+  {
+    weight = weight > part ? weight - part : 0.0; // rounding may leave less than 0
+    term = xLogX(weight);
+  }
+};
+
+/** \brief Gain in entropy rate by an edge between nodes with such loops, times the
+ * total weight: f(s_a) - f(s_a - w) + f(s_b) - f(s_b - w) - 2 f(w), f(x) = x log x. */
+inline double
+scaledEdgeGain(const SelfLoop& a, const SelfLoop& b, double weight)
+{
+  return a.loss(weight) + b.loss(weight) - 2.0 * xLogX(weight);
+}
+
 /** \brief The walk of entropyRate(graph, selected) while edges are added one by one.
  *
- * With s_i the weight of the step from node i to itself and f(x) = x log x,
- * H = 1/2W sum_i [f(W_i) - f(s_i) - sum_j f(W_ij)], so that an edge's gain is closed:
- *
- * 2W gain = f(s_a) - f(s_a - w) + f(s_b) - f(s_b - w) - 2 f(w).
- *
- * It is never negative, and it falls as s_a and s_b do: H is monotone and submodular.
- * 16 bytes per node.
+ * With s_i the weight of the step from node i to itself, 2W = sum_k W_k and
+ * f(x) = x log x, H = 1/2W sum_i [f(W_i) - f(s_i) - sum_j f(W_ij)], so that the gain of
+ * an edge is closed: scaledEdgeGain() / 2W. It is never negative, and it falls as s_a
+ * and s_b do: H is monotone and submodular. 16 bytes per node.
  * \ingroup segmentation
  */
 class PCL_NURBS_SEGMENTATION_EXPORT EdgeSubsetWalk {
@@ -120,20 +157,9 @@ public:
   explicit EdgeSubsetWalk(const WeightedGraph& graph);
 
   /** \brief By how much the entropy rate would rise with an edge of the graph that is
-   * not selected. O(1). */
+   * not selected; 0 for one without weight. O(1). */
   double
-  gain(const WeightedEdge& edge) const
-  {
-    return scaledGain(edge) / total_;
-  }
-
-  /** \brief Gain times sum_k W_k: what a comparison of edges needs. */
-  double
-  scaledGain(const WeightedEdge& edge) const
-  {
-    const double w = edge.weight;
-    return lossOf(edge.a, w) + lossOf(edge.b, w) - 2.0 * xLogX(w);
-  }
+  gain(const WeightedEdge& edge) const;
 
   /** \brief Select an edge of the graph that is not yet selected. O(1). */
   void
@@ -143,35 +169,13 @@ public:
   double
   entropyRate() const
   {
-    return total_ > 0.0 ? scaled_rate_ / total_ : 0.0;
-  }
-
-  /** \brief sum_k W_k. */
-  double
-  totalWeight() const
-  {
-    return total_;
+    return rate_;
   }
 
 private:
-  /** Step from a node to itself. */
-  struct Loop {
-    double weight;
-    double term; // x log x of the weight
-  };
-
-  double
-  lossOf(std::uint32_t node, double weight) const
-  {
-    return loops_[node].term - xLogX(loops_[node].weight - weight);
-  }
-
-  void
-  shorten(std::uint32_t node, double weight);
-
-  std::vector<Loop> loops_;
+  std::vector<SelfLoop> loops_;
   double total_ = 0.0;
-  double scaled_rate_ = 0.0;
+  double rate_ = 0.0;
 };
 
 } // namespace nurbs

@@ -51,17 +51,31 @@ struct Superpixels {
  * selection is that of the greedy algorithm that looks at every edge every time; of
  * equal gains the edge that comes first is taken.
  *
- * A graph of more than K connected parts ends with a group for each of them.
- * O(edges log edges) time and about 14 bytes per edge and 36 per node, input included.
- * Runs in one thread.
- * \param[in] graph weighted graph
+ * Edges without weight join nothing. A graph of more than K connected parts ends with a
+ * group for each of them. O(edges log edges) time and about 14 bytes per edge and 36
+ * per node, input included. Runs in one thread. \param[in] graph weighted graph
  * \param[in] options number of groups and balance
- * \throws std::invalid_argument when the graph is not valid (nodeWeights()), the number
- *         of groups is 0, or the balance is negative, infinite or not a number
- * \ingroup segmentation
+ * \throws std::invalid_argument when the graph is not valid (requireValidGraph()), the
+ * number of groups is 0, the balance is negative, infinite or not a number, or there
+ * are 2^32 edges or nodes \ingroup segmentation
  */
 PCL_NURBS_SEGMENTATION_EXPORT Superpixels
 entropyRateSuperpixels(const WeightedGraph& graph, const SuperpixelOptions& options);
+
+/** \brief Superpixels of the points of a grid, as entropyRateSuperpixels() of
+ * toWeightedGraph (graph, min_weight) without its empty cells.
+ * \param[in] points organized points
+ * \param[in] graph their graph, with weights
+ * \param[in] min_weight edges with a smaller weight are removed
+ * \param[in] options number of groups and balance
+ * \return labels are per cell, 0 for empty ones; edges count in the list above
+ * \throws std::invalid_argument also when the graph belongs to other points
+ */
+PCL_NURBS_SEGMENTATION_EXPORT Superpixels
+gridSuperpixels(const GridPoints& points,
+                const GridGraph& graph,
+                float min_weight,
+                const SuperpixelOptions& options);
 
 } // namespace nurbs
 } // namespace pcl
