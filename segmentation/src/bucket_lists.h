@@ -15,7 +15,12 @@ namespace nurbs {
  * lengths of the lists, and reading is sequential. */
 class BucketLists {
 public:
-  explicit BucketLists(std::size_t buckets) : heads_(buckets) {}
+  /** \param[in] buckets number of lists
+   * \param[in] numbers how many numbers there may be at a time */
+  BucketLists(std::size_t buckets, std::size_t numbers) : heads_(buckets)
+  {
+    chunks_.reserve(numbers / kPerChunk + buckets);
+  }
 
   std::size_t
   size() const

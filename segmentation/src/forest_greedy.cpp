@@ -23,35 +23,50 @@ constexpr std::size_t kFar = 24;
 constexpr std::size_t kNear = 16;
 constexpr std::size_t kSoon = 8;
 
-float
-roundedUp(double key)
+/** Buckets for so many edges. */
+std::size_t
+numBuckets(std::size_t edges)
 {
-  return std::nextafter(static_cast<float>(key), std::numeric_limits<float>::max());
+  return std::clamp(edges / kPerBucket, std::size_t{1}, kMostBuckets);
 }
 
 } // namespace
 
-ForestGreedy::ForestGreedy(const WeightedGraph& graph,
-                           std::vector<std::uint32_t> candidates,
-                           std::size_t members)
-    : graph_(graph),
-      members_(members),
-      groups_left_(members),
-      nodes_(graph.nodes),
-      waiting_(std::move(candidates)),
-      lists_(std::clamp(waiting_.size() / kPerBucket, std::size_t{1}, kMostBuckets))
+ForestGreedy::ForestGreedy(const EdgeView& edges, const std::vector<bool>& member)
+    : edges_(edges),
+      nodes_(edges.nodes()),
+      lists_(numBuckets(edges.size()), edges.size())
 {
   for (std::uint32_t size = 0; size < kTabulated; ++size)
     size_terms_.push_back(xLogX(size));
-  const std::vector<double> weights = nodeWeights(graph);
-  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-    nodes_[i].loop = {weights[i], xLogX(weights[i])};
-    nodes_[i].group = nodes_[i].next = i;
-    total_weight_ += weights[i];
+  for (std::size_t number = 0; number < edges.size(); ++number) {
+    const WeightedEdge edge = edges[number];
+    if (!(edge.weight > 0.0F))
+      continue;
+    nodes_[edge.a].loop.weight += edge.weight;
+    nodes_[edge.b].loop.weight += edge.weight;
   }
-  if (waiting_.empty())
-    total_weight_ = 1.0; // there is nothing to gain, and no entropy
-  rateWaiting();
+  double heaviest = 0.0;
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    node.loop.term = xLogX(node.loop.weight);
+    node.group = node.next = i;
+    total_weight_ += node.loop.weight;
+    heaviest = std::max(heaviest, node.loop.weight);
+    members_ += member[i] ? 1 : 0;
+  }
+  groups_left_ = members_;
+  selected_.reserve(members_);
+  // A node's entropy is at most that of a coin.
+  setRange(0.0, 2.0 * std::log(2.0) * heaviest);
+  for (std::uint32_t number = 0; number < edges.size(); ++number) {
+    const WeightedEdge edge = edges[number];
+    if (!(edge.weight > 0.0F) || !member[edge.a])
+      continue;
+    const double key = keyOf(edge, nodes_[edge.a], nodes_[edge.b]);
+    first_gain_ = std::max(first_gain_, key);
+    enqueue(number, key);
+  }
 }
 
 void
@@ -60,13 +75,19 @@ ForestGreedy::run(std::size_t groups, double lambda)
   groups_wanted_ = groups;
   // The keys that are known remain right: all groups are single nodes still.
   scale_ = lambda * total_weight_ / static_cast<double>(members_);
+  openBuckets();
   while (!waiting_.empty() && !done()) {
-    distributeWaiting();
-    for (std::size_t bucket = 0; bucket < lists_.size() && !done(); ++bucket)
-      openBucket(bucket);
-    if (!done())
-      rateWaiting();
+    enqueueWaiting();
+    openBuckets();
   }
+  lists_ = BucketLists(0, 0);
+}
+
+void
+ForestGreedy::openBuckets()
+{
+  for (std::size_t bucket = 0; bucket < lists_.size() && !done(); ++bucket)
+    openBucket(bucket);
 }
 
 double
@@ -86,41 +107,47 @@ ForestGreedy::keyOf(const WeightedEdge& edge,
          scale_ * balance;
 }
 
-/** Find the keys of all waiting edges and drop those inside of a group. */
+/** Spread the waiting edges over buckets from their highest key to their lowest. */
 void
-ForestGreedy::rateWaiting()
+ForestGreedy::enqueueWaiting()
 {
-  waiting_keys_.clear();
-  waiting_keys_.reserve(waiting_.size());
+  std::vector<std::uint32_t> again;
+  again.swap(waiting_);
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
   std::size_t kept = 0;
-  for (const std::uint32_t number : waiting_) {
-    const WeightedEdge& edge = graph_.edges[number];
+  for (const std::uint32_t number : again) {
+    const WeightedEdge edge = edges_[number];
     const std::uint32_t a = groupOf(edge.a);
     const std::uint32_t b = groupOf(edge.b);
     if (a == b)
       continue;
     const double key = keyOf(edge, nodes_[a], nodes_[b]);
-    first_gain_ = std::max(first_gain_, key);
-    waiting_keys_.push_back(roundedUp(key));
-    waiting_[kept++] = number;
+    low = std::min(low, key);
+    high = std::max(high, key);
+    again[kept++] = number;
   }
-  waiting_.resize(kept);
+  again.resize(kept);
+  setRange(low, high);
+  for (const std::uint32_t number : again) {
+    const WeightedEdge edge = edges_[number];
+    enqueue(number, keyOf(edge, nodes_[groupOf(edge.a)], nodes_[groupOf(edge.b)]));
+  }
 }
 
-/** Spread the waiting edges over buckets from their highest key to their lowest. */
 void
-ForestGreedy::distributeWaiting()
+ForestGreedy::setRange(double low, double high)
 {
-  const auto [low, high] =
-      std::minmax_element(waiting_keys_.begin(), waiting_keys_.end());
-  highest_ = *high;
-  const double range = static_cast<double>(*high) - *low;
-  // A little more than the range, so that the lowest key has its bucket.
+  highest_ = high;
   buckets_per_key_ =
-      range > 0.0 ? static_cast<double>(lists_.size()) / (range * (1.0 + 1e-9)) : 0.0;
-  for (std::size_t k = 0; k < waiting_.size(); ++k)
-    lists_.push(std::min(bucketOf(waiting_keys_[k]), lists_.size() - 1), waiting_[k]);
-  waiting_.clear();
+      high > low ? static_cast<double>(lists_.size()) / (high - low) : 0.0;
+}
+
+/** Put an edge in the list of its bucket; what is in range has one. */
+void
+ForestGreedy::enqueue(std::uint32_t edge, double key)
+{
+  lists_.push(std::min(bucketOf(key), lists_.size() - 1), edge);
 }
 
 /** Number of a bucket, or beyond the last where the key is below all buckets. */
@@ -142,7 +169,7 @@ ForestGreedy::openBucket(std::size_t bucket)
     std::pop_heap(heap_.begin(), heap_.end(), Later());
     const Candidate best = heap_.back();
     heap_.pop_back();
-    const WeightedEdge& edge = graph_.edges[best.edge];
+    const WeightedEdge edge = edges_[best.edge];
     const std::uint32_t a = groupOf(edge.a);
     const std::uint32_t b = groupOf(edge.b);
     if (std::max(nodes_[a].changed, nodes_[b].changed) > best.rated)
@@ -158,18 +185,18 @@ ForestGreedy::openBucket(std::size_t bucket)
 void
 ForestGreedy::considerOpened(std::size_t bucket)
 {
-  const WeightedEdge* edges = graph_.edges.data();
   const std::size_t count = opened_.size();
   for (std::size_t k = 0; k < count + kFar; ++k) {
     if (k < count)
-      __builtin_prefetch(&edges[opened_[k]]);
+      for (const void* place : edges_.places(opened_[k]))
+        __builtin_prefetch(place);
     if (k >= kFar - kNear && k - (kFar - kNear) < count) {
-      const WeightedEdge& edge = edges[opened_[k - (kFar - kNear)]];
+      const WeightedEdge edge = edges_[opened_[k - (kFar - kNear)]];
       __builtin_prefetch(&nodes_[edge.a]);
       __builtin_prefetch(&nodes_[edge.b]);
     }
     if (k >= kFar - kSoon && k - (kFar - kSoon) < count) {
-      const WeightedEdge& edge = edges[opened_[k - (kFar - kSoon)]];
+      const WeightedEdge edge = edges_[opened_[k - (kFar - kSoon)]];
       __builtin_prefetch(&nodes_[groupOf(edge.a)]);
       __builtin_prefetch(&nodes_[groupOf(edge.b)]);
     }
@@ -182,7 +209,7 @@ ForestGreedy::considerOpened(std::size_t bucket)
 void
 ForestGreedy::consider(std::size_t bucket, std::uint32_t number)
 {
-  const WeightedEdge& edge = graph_.edges[number];
+  const WeightedEdge edge = edges_[number];
   const std::uint32_t a = groupOf(edge.a);
   const std::uint32_t b = groupOf(edge.b);
   if (a == b)
@@ -202,7 +229,7 @@ ForestGreedy::consider(std::size_t bucket, std::uint32_t number)
 void
 ForestGreedy::select(std::uint32_t number)
 {
-  const WeightedEdge& edge = graph_.edges[number];
+  const WeightedEdge edge = edges_[number];
   const std::uint32_t a = groupOf(edge.a);
   const std::uint32_t b = groupOf(edge.b);
   SelfLoop& loop_a = nodes_[edge.a].loop;

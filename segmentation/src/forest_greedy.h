@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bucket_lists.h"
+#include "edge_view.h"
 
 #include <pcl/segmentation/random_walk.h>
 
@@ -24,18 +25,21 @@ namespace nurbs {
  * has exact keys and an order. */
 class ForestGreedy {
 public:
-  /** \param[in] graph valid graph
-   * \param[in] candidates edges to choose from, by number
-   * \param[in] members number of nodes they join */
-  ForestGreedy(const WeightedGraph& graph,
-               std::vector<std::uint32_t> candidates,
-               std::size_t members);
+  /** \param[in] edges valid graph
+   * \param[in] member nodes that take part, all of a connected part or none */
+  ForestGreedy(const EdgeView& edges, const std::vector<bool>& member);
+
+  std::size_t
+  numMembers() const
+  {
+    return members_;
+  }
 
   /** Largest gain in entropy rate of a first edge. */
   double
   firstGain() const
   {
-    return first_gain_ / total_weight_;
+    return first_gain_ > 0.0 ? first_gain_ / total_weight_ : 0.0;
   }
 
   /** Select edges until so many groups are left.
@@ -54,7 +58,7 @@ public:
   double
   entropyRate() const
   {
-    return scaled_rate_ / total_weight_;
+    return selected_.empty() ? 0.0 : scaled_rate_ / total_weight_;
   }
 
   /** The node that names the group of a node. O(1). */
@@ -96,10 +100,13 @@ private:
   sizeTerm(std::uint32_t size) const;
 
   void
-  rateWaiting();
+  setRange(double low, double high);
 
   void
-  distributeWaiting();
+  enqueue(std::uint32_t edge, double key);
+
+  void
+  enqueueWaiting();
 
   std::size_t
   bucketOf(double key) const;
@@ -119,15 +126,18 @@ private:
   void
   join(std::uint32_t large, std::uint32_t small);
 
+  void
+  openBuckets();
+
   bool
   done() const
   {
     return groups_left_ <= groups_wanted_;
   }
 
-  const WeightedGraph& graph_;
-  std::size_t members_;
-  std::size_t groups_left_;
+  EdgeView edges_;
+  std::size_t members_ = 0;
+  std::size_t groups_left_ = 0;
   std::size_t groups_wanted_ = 1;
   std::vector<Node> nodes_;
   double total_weight_ = 0.0;
@@ -136,8 +146,7 @@ private:
   std::vector<double> size_terms_;
   double scale_ = 0.0;
   std::vector<std::uint32_t> waiting_; // edges whose keys are below all buckets
-  std::vector<float> waiting_keys_;    // rounded up
-  float highest_ = 0.0F;
+  double highest_ = 0.0;
   double buckets_per_key_ = 0.0;
   BucketLists lists_;
   std::vector<std::uint32_t> opened_;

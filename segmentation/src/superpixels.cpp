@@ -17,63 +17,35 @@ namespace nurbs {
 namespace {
 
 void
-requireValid(const WeightedGraph& graph, const SuperpixelOptions& options)
+requireValid(const EdgeView& edges, const SuperpixelOptions& options)
 {
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
-  if (graph.edges.size() > kMost || graph.nodes > kMost)
+  if (edges.size() > kMost || edges.nodes() > kMost)
     throw std::invalid_argument("superpixels: the graph is too large");
-  requireValidGraph(graph);
   if (options.number == 0)
     throw std::invalid_argument("superpixels: there must be at least one group");
   if (!std::isfinite(options.balance) || options.balance < 0.0)
     throw std::invalid_argument("superpixels: the balance must not be negative");
 }
 
-/** Nodes whose connected part of the graph is large enough. */
-std::vector<bool>
-largeParts(const WeightedGraph& graph, std::size_t min_part)
+/** Take out nodes whose connected part of the graph is too small. */
+void
+dropSmallParts(const EdgeView& edges, std::size_t min_part, std::vector<bool>& member)
 {
-  std::vector<bool> large(graph.nodes, true);
   if (min_part <= 1)
-    return large;
-  DisjointSets parts(graph.nodes);
-  for (const WeightedEdge& edge : graph.edges)
+    return;
+  DisjointSets parts(edges.nodes());
+  for (std::size_t number = 0; number < edges.size(); ++number) {
+    const WeightedEdge edge = edges[number];
     if (edge.weight > 0.0F)
       parts.join(edge.a, edge.b);
-  std::vector<std::uint32_t> sizes(graph.nodes, 0);
-  for (std::uint32_t node = 0; node < graph.nodes; ++node)
-    ++sizes[parts.find(node)];
-  for (std::uint32_t node = 0; node < graph.nodes; ++node)
-    large[node] = sizes[parts.find(node)] >= min_part;
-  return large;
-}
-
-/** Numbers of the edges between nodes of \a member. */
-std::vector<std::uint32_t>
-edgesAmong(const std::vector<bool>& member, const WeightedGraph& graph)
-{
-  std::vector<std::uint32_t> edges;
-  edges.reserve(graph.edges.size());
-  for (std::uint32_t edge = 0; edge < graph.edges.size(); ++edge)
-    if (graph.edges[edge].weight > 0.0F && member[graph.edges[edge].a])
-      edges.push_back(edge);
-  return edges;
-}
-
-/** Renumber the nodes of a graph of cells so that empty cells are none. */
-void
-dropEmptyCells(const GridPoints& points, WeightedGraph& graph)
-{
-  std::vector<std::uint32_t> node(points.size(), 0);
-  std::uint32_t next = 0;
-  for (std::size_t cell = 0; cell < node.size(); ++cell)
-    if (points.valid(cell))
-      node[cell] = next++;
-  for (WeightedEdge& edge : graph.edges) {
-    edge.a = node[edge.a];
-    edge.b = node[edge.b];
   }
-  graph.nodes = next;
+  std::vector<std::uint32_t> sizes(edges.nodes(), 0);
+  for (std::uint32_t node = 0; node < edges.nodes(); ++node)
+    ++sizes[parts.find(node)];
+  for (std::uint32_t node = 0; node < edges.nodes(); ++node)
+    if (sizes[parts.find(node)] < min_part)
+      member[node] = false;
 }
 
 /** Label the nodes of \a member by their group and find the balance term. */
@@ -107,21 +79,21 @@ labelGroups(const ForestGreedy& greedy,
   orderBySize(result.count, labels);
 }
 
-} // namespace
-
 Superpixels
-entropyRateSuperpixels(const WeightedGraph& graph, const SuperpixelOptions& options)
+group(const EdgeView& edges, const SuperpixelOptions& options, std::vector<bool> member)
 {
-  requireValid(graph, options);
-  const std::vector<bool> member = largeParts(graph, options.min_part);
-  std::size_t nodes = 0;
-  for (const bool taken : member)
-    nodes += taken ? 1 : 0;
-  ForestGreedy greedy(graph, edgesAmong(member, graph), nodes);
+  requireValid(edges, options);
+  dropSmallParts(edges, options.min_part, member);
+  ForestGreedy greedy(edges, member);
   Superpixels result;
+  if (greedy.numMembers() == 0) {
+    result.labels.assign(edges.nodes(), 0);
+    return result;
+  }
   // Largest gain in balance: two single nodes become one group.
-  const double first_balance = 1.0 - xLogX(2.0) / static_cast<double>(nodes);
-  if (nodes > 1)
+  const double first_balance =
+      1.0 - xLogX(2.0) / static_cast<double>(greedy.numMembers());
+  if (first_balance > 0.0)
     result.lambda = options.balance * static_cast<double>(options.number) *
                     greedy.firstGain() / first_balance;
   greedy.run(options.number, result.lambda);
@@ -129,6 +101,15 @@ entropyRateSuperpixels(const WeightedGraph& graph, const SuperpixelOptions& opti
   result.entropy_rate = greedy.entropyRate();
   labelGroups(greedy, member, result);
   return result;
+}
+
+} // namespace
+
+Superpixels
+entropyRateSuperpixels(const WeightedGraph& graph, const SuperpixelOptions& options)
+{
+  requireValidGraph(graph);
+  return group(EdgeView(graph), options, std::vector<bool>(graph.nodes, true));
 }
 
 Superpixels
@@ -139,16 +120,11 @@ gridSuperpixels(const GridPoints& points,
 {
   if (graph.numCells() != points.size())
     throw std::invalid_argument("superpixels: the graph is not of these points");
-  WeightedGraph list = toWeightedGraph(graph, min_weight);
-  dropEmptyCells(points, list);
-  Superpixels result = entropyRateSuperpixels(list, options);
-  const std::vector<std::uint32_t> node_labels = std::move(result.labels);
-  result.labels.assign(points.size(), 0);
-  std::size_t node = 0;
+  requireValidWeights(graph);
+  std::vector<bool> valid(points.size());
   for (std::size_t cell = 0; cell < points.size(); ++cell)
-    if (points.valid(cell))
-      result.labels[cell] = node_labels[node++];
-  return result;
+    valid[cell] = points.valid(cell);
+  return group(EdgeView(graph, min_weight), options, std::move(valid));
 }
 
 } // namespace nurbs

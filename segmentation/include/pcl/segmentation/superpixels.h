@@ -68,7 +68,8 @@ entropyRateSuperpixels(const WeightedGraph& graph, const SuperpixelOptions& opti
  * \param[in] graph their graph, with weights
  * \param[in] min_weight edges with a smaller weight are removed
  * \param[in] options number of groups and balance
- * \return labels are per cell, 0 for empty ones; edges count in the list above
+ * \return labels are per cell, 0 for empty ones; an edge's number is that of its first
+ *         cell times the number of directions, plus the direction
  * \throws std::invalid_argument also when the graph belongs to other points
  */
 PCL_NURBS_SEGMENTATION_EXPORT Superpixels
