@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 //
-// The class: superpixels of scenes whose surfaces are known, weights by normals,
-// intensity, colour and one's own, what it says about neighbours, and bad input.
+// The class: superpixels of scenes whose surfaces are known, and what it says about
+// neighbours.
 
-#define PCL_NO_PRECOMPILE // for a point type of our own
-#include <pcl/segmentation/entropy_rate_segmentation.h>
+#include "superpixel_scenes.h"
+
 #include <pcl/segmentation/segment_unorganized.h>
-
-#include "grid_clouds.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
-
-struct MyPoint {
-  PCL_ADD_POINT4D;
-  float heat;
-  PCL_MAKE_ALIGNED_OPERATOR_NEW
-} EIGEN_ALIGN16;
-
-POINT_CLOUD_REGISTER_POINT_STRUCT(
-    MyPoint, (float, x, x)(float, y, y)(float, z, z)(float, heat, heat))
 
 namespace {
 
@@ -31,76 +21,6 @@ using namespace pcl;
 using namespace pcl::nurbs;
 using namespace pcl::nurbs::test;
 using Cloud = PointCloud<PointXYZ>;
-using Segmentation = EntropyRateSegmentation<PointXYZ>;
-
-const GridGeometry kCamera =
-    GridGeometry::pinhole(160, 120, {130.0, 130.0, 79.5, 59.5});
-
-template <typename PointT>
-EntropyRateSegmentation<PointT>
-superpixels(std::size_t number)
-{
-  EntropyRateSegmentation<PointT> segmentation;
-  segmentation.setMode(EntropyRateSegmentation<PointT>::SUPERPIXELS);
-  segmentation.setNumberOfSuperpixels(number);
-  segmentation.setSensorNoise(SensorNoise::kinect());
-  return segmentation;
-}
-
-template <typename PointT>
-std::vector<PointIndices>
-segmentsOf(GridSegmentation<PointT>& segmentation, const PointCloud<PointT>& cloud)
-{
-  segmentation.setInputCloud(cloud.makeShared());
-  std::vector<PointIndices> segments;
-  segmentation.segment(segments);
-  return segments;
-}
-
-/** A wall with a box before it. */
-Cloud
-boxBeforeWall(unsigned seed)
-{
-  std::mt19937 random(seed);
-  std::normal_distribution<double> normal;
-  return cameraCloud(kCamera, [&](int column, int row) {
-    const bool box = column >= 50 && column < 110 && row >= 30 && row < 90;
-    const double depth = box ? 1.5 : 2.0;
-    return depth + 0.3 * SensorNoise::kinect().sigma(depth) * normal(random);
-  });
-}
-
-/** A flat wall, with what \a paint does to the points of its left half. */
-template <typename PointT, typename Paint>
-PointCloud<PointT>
-paintedWall(const Paint& paint)
-{
-  const Cloud plain = cameraCloud(kCamera, [](int, int) { return 2.0; });
-  PointCloud<PointT> cloud(plain.width, plain.height);
-  for (std::size_t i = 0; i < plain.size(); ++i) {
-    cloud[i].getVector3fMap() = plain[i].getVector3fMap();
-    paint(cloud[i], i % plain.width < 80);
-  }
-  return cloud;
-}
-
-/** Segments with points of both halves. */
-template <typename PointT>
-std::size_t
-segmentsOverTheMiddle(GridSegmentation<PointT>& segmentation,
-                      const PointCloud<PointT>& cloud)
-{
-  std::size_t crossing = 0;
-  for (const PointIndices& segment : segmentsOf(segmentation, cloud)) {
-    const auto left =
-        std::count_if(segment.indices.begin(), segment.indices.end(), [&](index_t i) {
-          return static_cast<std::uint32_t>(i) % cloud.width < 80;
-        });
-    const auto all = static_cast<std::ptrdiff_t>(segment.indices.size());
-    crossing += left > 0 && left < all ? 1 : 0;
-  }
-  return crossing;
-}
 
 TEST(Superpixels, asManyAsAskedForAndNoneOverAJump)
 {
@@ -195,95 +115,6 @@ TEST(Superpixels, goOnOverTheSeamOfALaser)
   }
 }
 
-TEST(Weights, distanceAloneIsTheDefault)
-{
-  const Cloud cloud = boxBeforeWall(4);
-  auto segmentation = superpixels<PointXYZ>(50);
-  const auto segments = segmentsOf(segmentation, cloud);
-  const std::vector<std::uint32_t> labels = segmentation.getLabels();
-  segmentation.setWeightFunction(
-      [](const PointXYZ& p, const PointXYZ& q, float, float variance) {
-        const float distance = (p.getVector3fMap() - q.getVector3fMap()).squaredNorm();
-        return std::exp(-0.5F * distance / variance);
-      });
-  segmentsOf(segmentation, cloud);
-  EXPECT_EQ(segmentation.getLabels(), labels);
-  segmentation.setWeightFunction(
-      [](const PointXYZ& p, const PointXYZ&, float, float) { return p.x + 3.0F; });
-  segmentsOf(segmentation, cloud);
-  EXPECT_NE(segmentation.getLabels(), labels);
-  segmentation.resetWeightFunction();
-  segmentsOf(segmentation, cloud);
-  EXPECT_EQ(segmentation.getLabels(), labels);
-}
-
-TEST(Weights, normalsSeparate)
-{
-  const auto cloud = paintedWall<PointNormal>([](PointNormal& point, bool left) {
-    point.normal_x = left ? 0.6F : 0.0F;
-    point.normal_y = 0.0F;
-    point.normal_z = left ? 0.8F : -1.0F;
-  });
-  auto segmentation = superpixels<PointNormal>(23);
-  EXPECT_GT(segmentsOverTheMiddle(segmentation, cloud), 0U);
-  segmentation.setWeightFunction(NormalWeight());
-  EXPECT_EQ(segmentsOverTheMiddle(segmentation, cloud), 0U);
-}
-
-TEST(Weights, normalsThatAreMissingOrFlippedDoNot)
-{
-  const NormalWeight weight{0.2F};
-  PointNormal p;
-  PointNormal q;
-  p.getNormalVector3fMap() = Eigen::Vector3f::UnitZ();
-  q.getNormalVector3fMap() = -Eigen::Vector3f::UnitZ();
-  EXPECT_FLOAT_EQ(weight(p, q, 0.5F, 1.0F), std::exp(-0.25F));
-  q.normal_x = std::nanf("");
-  EXPECT_FLOAT_EQ(weight(p, q, 0.5F, 1.0F), std::exp(-0.25F));
-  q.getNormalVector3fMap() << 0.6F, 0.0F, 0.8F;
-  const float angle = std::acos(0.8F);
-  EXPECT_NEAR(weight(p, q, 0.0F, 1.0F), std::exp(-0.5F * angle * angle / 0.04F), 1e-5);
-}
-
-TEST(Weights, intensitySeparates)
-{
-  const auto cloud = paintedWall<PointXYZI>(
-      [](PointXYZI& point, bool left) { point.intensity = left ? 40.0F : 90.0F; });
-  auto segmentation = superpixels<PointXYZI>(23);
-  segmentation.setWeightFunction(IntensityWeight());
-  EXPECT_EQ(segmentsOverTheMiddle(segmentation, cloud), 0U);
-  segmentation.setWeightFunction(IntensityWeight{1e6F});
-  EXPECT_GT(segmentsOverTheMiddle(segmentation, cloud), 0U);
-}
-
-TEST(Weights, colourSeparates)
-{
-  const auto cloud = paintedWall<PointXYZRGB>([](PointXYZRGB& point, bool left) {
-    point.r = left ? 200 : 10;
-    point.g = 100;
-    point.b = left ? 10 : 200;
-  });
-  auto segmentation = superpixels<PointXYZRGB>(23);
-  segmentation.setWeightFunction(ColorWeight());
-  EXPECT_EQ(segmentsOverTheMiddle(segmentation, cloud), 0U);
-  // 0..255 are bytes: their difference must not wrap around.
-  const ColorWeight weight{1.0F};
-  EXPECT_EQ(weight(cloud[0], cloud[159], 0.0F, 1.0F),
-            weight(cloud[159], cloud[0], 0.0F, 1.0F));
-}
-
-TEST(Weights, anyPointTypeWorks)
-{
-  const auto cloud = paintedWall<MyPoint>(
-      [](MyPoint& point, bool left) { point.heat = left ? 0.0F : 1.0F; });
-  auto segmentation = superpixels<MyPoint>(23);
-  segmentation.setWeightFunction([](const MyPoint& p, const MyPoint& q, float, float) {
-    return p.heat == q.heat ? 1.0F : 0.0F;
-  });
-  EXPECT_EQ(segmentsOverTheMiddle(segmentation, cloud), 0U);
-  EXPECT_EQ(segmentation.getNumSegments(), 23U);
-}
-
 TEST(Threads, anyNumberGivesTheSame)
 {
   const Cloud cloud = boxBeforeWall(5);
@@ -326,111 +157,6 @@ TEST(Unorganized, segmentsHoldIndicesOfTheCloud)
   EXPECT_TRUE(segments.empty());
   EXPECT_FALSE(
       segmentUnorganized<PointXYZ>(Cloud().makeShared(), segmentation, segments));
-}
-
-void
-expectNothing(Segmentation& segmentation, const Cloud& cloud)
-{
-  EXPECT_TRUE(segmentsOf(segmentation, cloud).empty());
-  EXPECT_TRUE(segmentation.getLabels().empty());
-  EXPECT_TRUE(segmentation.getAdjacency().empty());
-  EXPECT_TRUE(segmentation.getColoredCloud()->empty());
-  EXPECT_EQ(segmentation.getNumSegments(), 0U);
-}
-
-TEST(BadInput, givesNoSegments)
-{
-  const float nan = std::nanf("");
-  auto segmentation = superpixels<PointXYZ>(10);
-  segmentation.setMinSegmentSize(2);
-  std::vector<PointIndices> segments(3);
-  segmentation.segment(segments); // no cloud at all
-  EXPECT_TRUE(segments.empty());
-  expectNothing(segmentation, Cloud());
-  expectNothing(segmentation, Cloud(40, 30, PointXYZ(nan, nan, nan)));
-  expectNothing(segmentation, Cloud(1, 1, PointXYZ(1.0F, 1.0F, 1.0F)));
-  expectNothing(segmentation, Cloud(1200, 1, PointXYZ(1.0F, 1.0F, 1.0F)));
-  // Isolated points have no neighbours.
-  Cloud isolated = boxBeforeWall(7);
-  for (std::size_t i = 0; i < isolated.size(); ++i)
-    if (i % 160 % 2 != 0 || i / 160 % 2 != 0)
-      isolated[i].x = nan;
-  expectNothing(segmentation, isolated);
-  segmentation.setMinSegmentSize(1);
-  EXPECT_EQ(segmentsOf(segmentation, isolated).size(), 80U * 60U);
-}
-
-TEST(BadInput, optionsWithoutSenseGiveNoSegments)
-{
-  const Cloud cloud = boxBeforeWall(8);
-  auto segmentation = superpixels<PointXYZ>(10);
-  ASSERT_EQ(segmentsOf(segmentation, cloud).size(), 10U);
-  segmentation.setConnectivity(6);
-  expectNothing(segmentation, cloud);
-  segmentation.setConnectivity(4);
-  segmentation.setNumberOfSuperpixels(0);
-  expectNothing(segmentation, cloud);
-  segmentation.setNumberOfSuperpixels(10);
-  segmentation.setBalance(-1.0);
-  expectNothing(segmentation, cloud);
-  segmentation.setBalance(0.5);
-  segmentation.setMinWeight(2.0F); // no edge is as good
-  expectNothing(segmentation, cloud);
-  segmentation.setMinWeight(1e-4F);
-  EXPECT_EQ(segmentsOf(segmentation, cloud).size(), 10U);
-}
-
-TEST(BadInput, weightsWithoutSenseGiveNoSegments)
-{
-  const Cloud cloud = boxBeforeWall(9);
-  for (const float bad :
-       {std::nanf(""), std::numeric_limits<float>::infinity(), -1.0F, 0.0F})
-    for (const bool everywhere : {true, false}) {
-      auto segmentation = superpixels<PointXYZ>(10);
-      segmentation.setWeightFunction(
-          [&](const PointXYZ& p, const PointXYZ&, float, float) {
-            return everywhere || p.x > 0.5F ? bad : 1.0F;
-          });
-      if (bad == 0.0F && !everywhere)
-        EXPECT_GE(segmentsOf(segmentation, cloud).size(), 10U);
-      else
-        expectNothing(segmentation, cloud);
-    }
-}
-
-TEST(OddInput, twoPointsConstantDepthAndOneSegment)
-{
-  const float nan = std::nanf("");
-  auto segmentation = superpixels<PointXYZ>(1);
-  segmentation.setMinSegmentSize(1);
-  Cloud two(2, 2, PointXYZ(nan, nan, nan));
-  two[0] = PointXYZ(0.0F, 0.0F, 1.0F);
-  two[1] = PointXYZ(0.01F, 0.0F, 1.0F);
-  EXPECT_LE(segmentsOf(segmentation, two).size(), 2U);
-  const Cloud flat = cameraCloud(kCamera, [](int, int) { return 1.0; });
-  const auto whole = segmentsOf(segmentation, flat);
-  ASSERT_EQ(whole.size(), 1U);
-  EXPECT_EQ(whole[0].indices.size(), flat.size());
-  EXPECT_TRUE(segmentation.getAdjacency().empty());
-  segmentation.setNumberOfSuperpixels(1000000);
-  EXPECT_EQ(segmentsOf(segmentation, flat).size(), flat.size());
-  // All points in one place.
-  segmentation.setNumberOfSuperpixels(5);
-  EXPECT_EQ(segmentsOf(segmentation, Cloud(40, 30, PointXYZ(1.0F, 1.0F, 1.0F))).size(),
-            5U);
-}
-
-TEST(OddInput, tenMillionPoints)
-{
-  const GridGeometry grid =
-      GridGeometry::pinhole(4000, 2500, {3000.0, 3000.0, 1999.5, 1249.5});
-  const auto cloud = cameraCloud(grid, [](int column, int row) {
-    return 2.0 + 0.2 * ((column / 500 + row / 500) % 2) + 1e-5 * (column * 7 % 11);
-  });
-  auto segmentation = superpixels<PointXYZ>(2000);
-  segmentation.setGeometry(grid);
-  segmentation.setConnectivity(4);
-  EXPECT_EQ(segmentsOf(segmentation, cloud).size(), 2000U);
 }
 
 } // namespace
