@@ -39,8 +39,22 @@ ForestGreedy::ForestGreedy(const EdgeView& edges, const std::vector<bool>& membe
 {
   for (std::uint32_t size = 0; size < kTabulated; ++size)
     size_terms_.push_back(xLogX(size));
-  for (std::size_t number = 0; number < edges.size(); ++number) {
-    const WeightedEdge edge = edges[number];
+  for (const bool taken : member)
+    members_ += taken ? 1 : 0;
+  groups_left_ = members_;
+  selected_.reserve(members_);
+  // A step from a node to itself loses at most the entropy of a coin.
+  setRange(0.0, 2.0 * std::log(2.0) * startLoops());
+  enqueueAll(member);
+}
+
+/** Let the walk stay where it is.
+ * \return largest weight of a node */
+double
+ForestGreedy::startLoops()
+{
+  for (std::size_t number = 0; number < edges_.size(); ++number) {
+    const WeightedEdge edge = edges_[number];
     if (!(edge.weight > 0.0F))
       continue;
     nodes_[edge.a].loop.weight += edge.weight;
@@ -48,19 +62,20 @@ ForestGreedy::ForestGreedy(const EdgeView& edges, const std::vector<bool>& membe
   }
   double heaviest = 0.0;
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-    Node& node = nodes_[i];
-    node.loop.term = xLogX(node.loop.weight);
-    node.group = node.next = i;
-    total_weight_ += node.loop.weight;
-    heaviest = std::max(heaviest, node.loop.weight);
-    members_ += member[i] ? 1 : 0;
+    SelfLoop& loop = nodes_[i].loop;
+    loop.term = xLogX(loop.weight);
+    nodes_[i].group = nodes_[i].next = i;
+    total_weight_ += loop.weight;
+    heaviest = std::max(heaviest, loop.weight);
   }
-  groups_left_ = members_;
-  selected_.reserve(members_);
-  // A node's entropy is at most that of a coin.
-  setRange(0.0, 2.0 * std::log(2.0) * heaviest);
-  for (std::uint32_t number = 0; number < edges.size(); ++number) {
-    const WeightedEdge edge = edges[number];
+  return heaviest;
+}
+
+void
+ForestGreedy::enqueueAll(const std::vector<bool>& member)
+{
+  for (std::uint32_t number = 0; number < edges_.size(); ++number) {
+    const WeightedEdge edge = edges_[number];
     if (!(edge.weight > 0.0F) || !member[edge.a])
       continue;
     const double key = keyOf(edge, nodes_[edge.a], nodes_[edge.b]);

@@ -99,6 +99,12 @@ private:
   double
   sizeTerm(std::uint32_t size) const;
 
+  double
+  startLoops();
+
+  void
+  enqueueAll(const std::vector<bool>& member);
+
   void
   setRange(double low, double high);
 
