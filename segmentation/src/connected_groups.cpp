@@ -4,9 +4,10 @@
 #include <pcl/segmentation/connected_groups.h>
 
 #include "creases.h"
+#include "disjoint_sets.h"
+#include "label_order.h"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 
 namespace pcl {
@@ -17,38 +18,6 @@ using Labels = std::vector<std::uint32_t>;
 
 /** Cells that groups stay away from folds and jumps while they form. */
 constexpr int kHeldBack = 3;
-
-/** Disjoint sets of cells; the root of a set is its first cell. */
-class CellSets {
-public:
-  explicit CellSets(std::size_t cells) : parent_(cells)
-  {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-  }
-
-  std::uint32_t
-  find(std::uint32_t cell)
-  {
-    while (parent_[cell] != cell) {
-      parent_[cell] = parent_[parent_[cell]];
-      cell = parent_[cell];
-    }
-    return cell;
-  }
-
-  void
-  join(std::uint32_t a, std::uint32_t b)
-  {
-    if (parent_[a] == parent_[b])
-      return;
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /** Label the groups of cells that \a member accepts and kept edges join, if they are
  * large enough; labels go on from \a last. */
@@ -62,7 +31,7 @@ labelGroups(const KeptEdges& edges,
 {
   const GridGraph& graph = edges.graph();
   const std::size_t cells = graph.numCells();
-  CellSets sets(cells);
+  DisjointSets sets(cells);
   bool any = false;
   for (std::size_t i = 0; i < cells; ++i) {
     if (!member(i))
@@ -117,25 +86,6 @@ shareFolds(const KeptEdges& edges,
       front.push_back(neighbour);
     });
   }
-}
-
-/** Renumber labels 1..count by decreasing size; equal sizes keep their order. */
-void
-orderBySize(std::uint32_t count, Labels& labels)
-{
-  std::vector<std::size_t> sizes(count + 1, 0);
-  for (const std::uint32_t label : labels)
-    ++sizes[label];
-  Labels order(count);
-  std::iota(order.begin(), order.end(), std::uint32_t{1});
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return sizes[a] > sizes[b];
-  });
-  Labels renamed(count + 1, 0);
-  for (std::uint32_t rank = 0; rank < count; ++rank)
-    renamed[order[rank]] = rank + 1;
-  for (std::uint32_t& label : labels)
-    label = renamed[label];
 }
 
 void

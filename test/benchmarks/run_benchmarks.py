@@ -42,6 +42,15 @@ ROWS = {
     "fit_adaptive/1": ("Fit 100k points, knots chosen, noise stated rightly", "100 ms"),
     "fit_adaptive/2": ("Fit 100k points, knots chosen, noise stated twice too large", "100 ms"),
     "fit_adaptive/4": ("Fit 100k points, knots chosen, noise stated four times too large", "100 ms"),
+    "superpixels_8": ("1000 superpixels of a 640 × 480 cloud, 8 neighbours", "200 ms"),
+    "superpixels_4": ("1000 superpixels of a 640 × 480 cloud, 4 neighbours", "100 ms"),
+    "superpixels_whole_8": ("The same with raster, noise and graph, 8 neighbours", None),
+    "superpixels_whole_4": ("The same with raster, noise and graph, 4 neighbours", None),
+    "segment_normals": ("Normals of the same cloud", None),
+    "segment_planes": ("Planes of the same cloud, normals given", None),
+    "segment_regions": ("Smooth regions of the same cloud, normals given", None),
+    **{f"superpixels_scaling_{k}/{n}": (f"Graph and superpixels of {n} points, {k} neighbours", None)
+       for k in (8, 4) for n in (10000, 100000, 1000000, 10000000)},
 }
 UNITS = {"ns": 1e-9, "us": 1e-6, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
 NOT_QUALITY = {"calls"}
