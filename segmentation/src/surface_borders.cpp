@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "surface_borders.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+/** How far from a border, in cells, points may change sides. */
+constexpr int kBand = 8;
+/** What a neighbour of another facet costs, in units of a squared residual. */
+constexpr double kNeighbourCost = 1.0;
+/** Residuals beyond this many standard deviations say no more than this. */
+constexpr double kMostSigmas = 6.0;
+
+} // namespace
+
+CellFacets::CellFacets(const JoiningInput& input, const KeptEdges& edges)
+    : input_(input),
+      edges_(edges),
+      inverse_scale_(1.0 / input.criterion.varianceScale()),
+      facet_(input.points.size(), kNone)
+{
+  const std::vector<std::uint32_t>& node = input.nodes.ofCell();
+  for (std::size_t cell = 0; cell < node.size(); ++cell)
+    if (node[cell] != SurfaceNodes::kNone)
+      facet_[cell] = input.facets.of_node[node[cell]];
+}
+
+double
+CellFacets::residual(std::size_t cell, std::uint32_t facet) const
+{
+  if (facet >= input_.facets.count())
+    return kMostSigmas * kMostSigmas; // without a model
+  const ViewSample sample = input_.chart.sample(cell);
+  const double off = sample.value - input_.facets.models[facet].surface(sample.basis);
+  return std::min(off * off * sample.weight * inverse_scale_,
+                  kMostSigmas * kMostSigmas);
+}
+
+std::uint32_t
+CellFacets::bestNeighbour(std::size_t cell, double sigmas) const
+{
+  std::uint32_t best = kNone;
+  double least = sigmas * sigmas;
+  edges_.forEachNeighbour(cell, [&](std::size_t neighbour) {
+    const std::uint32_t facet = facet_[neighbour];
+    if (facet == kNone || facet == best)
+      return;
+    const double square = residual(cell, facet);
+    if (square < least || (square == least && facet < best)) {
+      least = square;
+      best = facet;
+    }
+  });
+  return best;
+}
+
+void
+CellFacets::grow(double sigmas)
+{
+  std::vector<std::size_t> front;
+  std::vector<std::uint8_t> waiting(facet_.size(), 0);
+  const auto offer = [&](std::size_t cell, std::vector<std::size_t>& list) {
+    if (facet_[cell] != kNone || waiting[cell] != 0)
+      return;
+    waiting[cell] = 1;
+    list.push_back(cell);
+  };
+  for (std::size_t cell = 0; cell < facet_.size(); ++cell)
+    if (facet_[cell] != kNone)
+      edges_.forEachNeighbour(cell, [&](std::size_t next) { offer(next, front); });
+  while (!front.empty()) {
+    // A ring at a time, so that no facet is ahead of the others.
+    std::vector<std::uint32_t> chosen;
+    chosen.reserve(front.size());
+    for (const std::size_t cell : front)
+      chosen.push_back(bestNeighbour(cell, sigmas));
+    std::vector<std::size_t> next;
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      facet_[front[k]] = chosen[k];
+      waiting[front[k]] = 0;
+    }
+    for (std::size_t k = 0; k < front.size(); ++k)
+      if (chosen[k] != kNone)
+        edges_.forEachNeighbour(front[k], [&](std::size_t cell) { offer(cell, next); });
+    front.swap(next);
+  }
+}
+
+std::uint32_t
+CellFacets::addLeftOver(std::uint32_t first)
+{
+  std::vector<std::size_t> front;
+  for (std::size_t cell = 0; cell < facet_.size(); ++cell) {
+    if (facet_[cell] != kNone || !input_.points.valid(cell))
+      continue;
+    facet_[cell] = first;
+    front.assign(1, cell);
+    while (!front.empty()) {
+      const std::size_t here = front.back();
+      front.pop_back();
+      edges_.forEachNeighbour(here, [&](std::size_t next) {
+        if (facet_[next] == kNone) {
+          facet_[next] = first;
+          front.push_back(next);
+        }
+      });
+    }
+    ++first;
+  }
+  return first;
+}
+
+std::vector<std::size_t>
+CellFacets::nearBorders() const
+{
+  std::vector<std::uint8_t> seen(facet_.size(), 0);
+  std::vector<std::size_t> band;
+  for (std::size_t cell = 0; cell < facet_.size(); ++cell)
+    if (facet_[cell] != kNone)
+      edges_.forEachNeighbour(cell, [&](std::size_t next) {
+        if (seen[cell] == 0 && facet_[next] != kNone && facet_[next] != facet_[cell]) {
+          seen[cell] = 1;
+          band.push_back(cell);
+        }
+      });
+  std::size_t begin = 0;
+  for (int ring = 1; ring < kBand; ++ring) {
+    const std::size_t end = band.size();
+    for (std::size_t k = begin; k < end; ++k)
+      edges_.forEachNeighbour(band[k], [&](std::size_t next) {
+        if (seen[next] == 0 && facet_[next] != kNone) {
+          seen[next] = 1;
+          band.push_back(next);
+        }
+      });
+    begin = end;
+  }
+  std::sort(band.begin(), band.end());
+  return band;
+}
+
+std::uint32_t
+CellFacets::cheapest(std::size_t cell) const
+{
+  std::uint32_t best = facet_[cell];
+  double least = std::numeric_limits<double>::infinity();
+  const auto consider = [&](std::uint32_t facet) {
+    double cost = residual(cell, facet);
+    edges_.forEachNeighbour(cell, [&](std::size_t other) {
+      cost += facet_[other] == facet ? 0.0 : kNeighbourCost;
+    });
+    if (cost < least) {
+      least = cost;
+      best = facet;
+    }
+  };
+  consider(facet_[cell]);
+  edges_.forEachNeighbour(cell, [&](std::size_t next) {
+    if (facet_[next] != kNone && facet_[next] != facet_[cell] && facet_[next] != best)
+      consider(facet_[next]);
+  });
+  return best;
+}
+
+void
+CellFacets::refine()
+{
+  const std::vector<std::size_t> band = nearBorders();
+  for (int sweep = 0; sweep < 2 * kBand; ++sweep) {
+    bool changed = false;
+    for (const std::size_t cell : band) {
+      const std::uint32_t best = cheapest(cell);
+      changed = changed || best != facet_[cell];
+      facet_[cell] = best;
+    }
+    if (!changed)
+      break;
+  }
+}
+
+} // namespace nurbs
+} // namespace pcl

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#pragma once
+
+#include "surface_joining.h"
+
+#include "kept_edges.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl {
+namespace nurbs {
+
+/** Facet of each cell at full resolution. */
+class CellFacets {
+public:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+  /** Cells of nodes have their node's facet, the others none. */
+  CellFacets(const JoiningInput& input, const KeptEdges& edges);
+
+  /** Let facets grow, cell by cell, over kept edges, to points they explain within so
+   * many standard deviations. */
+  void
+  grow(double sigmas);
+
+  /** Connected cells without a facet become new ones, numbered on from \a first; as if
+   * each had a constant model. \return number of facets */
+  std::uint32_t
+  addLeftOver(std::uint32_t first);
+
+  /** Move the borders between facets to where their models intersect: each cell near a
+   * border belongs to the model that explains it and its neighbours best. */
+  void
+  refine();
+
+  const std::vector<std::uint32_t>&
+  labels() const
+  {
+    return facet_;
+  }
+
+private:
+  double
+  residual(std::size_t cell, std::uint32_t facet) const;
+
+  std::uint32_t
+  bestNeighbour(std::size_t cell, double sigmas) const;
+
+  std::vector<std::size_t>
+  nearBorders() const;
+
+  std::uint32_t
+  cheapest(std::size_t cell) const;
+
+  const JoiningInput& input_;
+  const KeptEdges& edges_;
+  double inverse_scale_; // of the variance
+  std::vector<std::uint32_t> facet_;
+};
+
+} // namespace nurbs
+} // namespace pcl
