@@ -1,138 +1,156 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 
+#include "border_agglomeration.h"
 #include "surface_joining.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <utility>
+#include <tuple>
 
 namespace pcl {
 namespace nurbs {
 namespace {
 
-/** Points a local fit wants. */
-constexpr double kWindowPoints = 400.0;
 /** Largest step (standard deviations) between the local fits of one surface. */
 constexpr double kStepSigmas = 3.0;
 /** Share of the common border that must be smooth. */
 constexpr double kSmoothShare = 0.6;
+/** Fewer points say nothing about a surface near a border. */
+constexpr double kLeastPoints = 12.0;
+/** Points of every second row and column are enough. */
+constexpr int kStride = 2;
 
-/** Fits to the nodes around a node, of its own facet only. */
-class WindowFits {
-public:
-  WindowFits(const JoiningInput& input, const std::vector<NodeLink>& links)
-      : input_(input),
-        first_(input.nodes.count() + 1, 0),
-        fits_(input.nodes.count()),
-        seen_(input.nodes.count(), 0)
+/** A piece of the border between two facets, in one block. */
+struct BorderPiece {
+  std::size_t cells = 0;
+  std::size_t middle = 0; /**< one of its cells */
+};
+
+/** Two facets, a < b, and the block their border passes. */
+struct BorderKey {
+  std::uint32_t a;
+  std::uint32_t b;
+  std::size_t block;
+
+  bool
+  operator<(const BorderKey& other) const
   {
-    const auto within = [&](const NodeLink& link) {
-      return input.facets.of_node[link.a] == input.facets.of_node[link.b];
-    };
-    for (const NodeLink& link : links)
-      if (within(link)) {
-        ++first_[link.a + 1];
-        ++first_[link.b + 1];
-      }
-    for (std::size_t k = 1; k < first_.size(); ++k)
-      first_[k] += first_[k - 1];
-    neighbours_.resize(first_.back());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (const NodeLink& link : links)
-      if (within(link)) {
-        neighbours_[next[link.a]++] = link.b;
-        neighbours_[next[link.b]++] = link.a;
-      }
+    return std::tie(a, b, block) < std::tie(other.a, other.b, other.block);
+  }
+};
+
+using Borders = std::map<BorderKey, BorderPiece>;
+
+Borders
+bordersOf(const GridGeometry& grid,
+          const KeptEdges& edges,
+          const std::vector<std::uint32_t>& cell_facet,
+          std::uint32_t facets,
+          BlockSize size)
+{
+  Borders borders;
+  const auto width = static_cast<std::size_t>(grid.width);
+  const GridGraph& graph = edges.graph();
+  for (int d = 0; d < 2; ++d) // rows and columns
+    for (std::size_t i = 0; i < cell_facet.size(); ++i) {
+      if (cell_facet[i] >= facets || !edges.keeps(d, i))
+        continue;
+      const std::uint32_t other =
+          cell_facet[static_cast<std::size_t>(graph.target(d)[i])];
+      if (other >= facets || other == cell_facet[i])
+        continue;
+      const std::size_t block =
+          i / width / static_cast<std::size_t>(size.rows) * width +
+          i % width / static_cast<std::size_t>(size.columns);
+      const auto [a, b] = std::minmax(cell_facet[i], other);
+      BorderPiece& piece = borders[{a, b, block}];
+      if (++piece.cells % 2 == 1)
+        piece.middle = i;
+    }
+  return borders;
+}
+
+/** Compares two facets at places of their border. */
+class BorderTest {
+public:
+  BorderTest(const JoiningInput& input,
+             const std::vector<std::uint32_t>& cell_facet,
+             BlockSize size)
+      : input_(input), cell_facet_(cell_facet), size_(size)
+  {
   }
 
-  const ViewPolynomial&
-  at(std::uint32_t node)
+  bool
+  smooth(std::uint32_t a, std::uint32_t b, std::size_t cell) const
   {
-    if (!fits_[node])
-      fits_[node] = compute(node);
-    return *fits_[node];
+    const std::array<ViewSums, 2> sums = around(a, b, cell);
+    if (sums[0].count() < kLeastPoints || sums[1].count() < kLeastPoints)
+      return false;
+    const ViewChart& chart = input_.chart;
+    const int most = chart.termChoices()[1];
+    const ViewPolynomial fit_a = input_.criterion.best(sums[0], most).surface;
+    const ViewPolynomial fit_b = input_.criterion.best(sums[1], most).surface;
+    const Eigen::Vector3d where = chart.direction(cell);
+    const std::array<double, kMostViewTerms> basis = chart.basis(where);
+    const double step = std::abs(fit_a(basis) - fit_b(basis));
+    const double sigma =
+        chart.sigma(static_cast<double>(input_.points.depth[cell])) *
+        std::sqrt(input_.criterion.varianceScale());
+    const double cosine = chart.normal(fit_a, where).dot(chart.normal(fit_b, where));
+    return step <= kStepSigmas * sigma &&
+           cosine >= std::cos(input_.options.crease_angle);
   }
 
 private:
-  ViewPolynomial
-  compute(std::uint32_t node)
+  /** Sums over the points of two facets near a cell. */
+  std::array<ViewSums, 2>
+  around(std::uint32_t a, std::uint32_t b, std::size_t cell) const
   {
-    ++turn_;
-    std::vector<std::uint32_t> front(1, node);
-    seen_[node] = turn_;
-    ViewSums sums;
-    for (std::size_t k = 0; k < front.size() && sums.count() < kWindowPoints; ++k) {
-      const std::uint32_t here = front[k];
-      sums += input_.nodes.sums(here);
-      for (std::uint32_t at = first_[here]; at < first_[here + 1]; ++at)
-        if (seen_[neighbours_[at]] != turn_) {
-          seen_[neighbours_[at]] = turn_;
-          front.push_back(neighbours_[at]);
-        }
-    }
-    return input_.criterion.best(sums, input_.chart.termChoices()[1]).surface;
+    const GridGeometry& grid = input_.points.geometry;
+    const int row = static_cast<int>(cell) / grid.width;
+    const int column = static_cast<int>(cell) % grid.width;
+    const int far_rows = 2 * size_.rows;
+    const int far_columns = 2 * size_.columns;
+    std::array<ViewSums, 2> sums;
+    for (int r = std::max(0, row - far_rows);
+         r <= std::min(grid.height - 1, row + far_rows);
+         r += kStride)
+      for (int k = column - far_columns; k <= column + far_columns; k += kStride) {
+        const int c = grid.wrap ? (k + grid.width) % grid.width : k;
+        if (c < 0 || c >= grid.width)
+          continue;
+        const auto at = static_cast<std::size_t>(r * grid.width + c);
+        if (cell_facet_[at] == a || cell_facet_[at] == b)
+          sums[cell_facet_[at] == a ? 0 : 1].add(input_.chart.sample(at));
+      }
+    return sums;
   }
 
   const JoiningInput& input_;
-  std::vector<std::uint32_t> first_;
-  std::vector<std::uint32_t> neighbours_;
-  std::vector<std::optional<ViewPolynomial>> fits_;
-  std::vector<std::uint32_t> seen_;
-  std::uint32_t turn_ = 0;
-};
-
-/** Whether two local surfaces agree at a direction in position and normal. */
-bool
-meetSmoothly(const JoiningInput& input,
-             const ViewPolynomial& a,
-             const ViewPolynomial& b,
-             const Eigen::Vector3d& where)
-{
-  const std::array<double, kMostViewTerms> basis = input.chart.basis(where);
-  const double value_a = a(basis);
-  const double value_b = b(basis);
-  const double depth = input.chart.depthOf(0.5 * (value_a + value_b));
-  const double sigma =
-      input.chart.sigma(depth) * std::sqrt(input.criterion.varianceScale());
-  if (!(std::abs(value_a - value_b) <= kStepSigmas * sigma))
-    return false;
-  const double cosine =
-      input.chart.normal(a, where).dot(input.chart.normal(b, where));
-  return cosine >= std::cos(input.options.crease_angle);
-}
-
-struct Border {
-  double all = 0.0;
-  double smooth = 0.0;
+  const std::vector<std::uint32_t>& cell_facet_;
+  BlockSize size_;
 };
 
 } // namespace
 
 void
 joinSmooth(const JoiningInput& input,
-           const std::vector<NodeLink>& links,
+           const KeptEdges& edges,
+           const std::vector<std::uint32_t>& cell_facet,
+           BlockSize size,
            DisjointSets& surfaces)
 {
-  WindowFits windows(input, links);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Border> borders;
-  for (const NodeLink& link : links) {
-    const std::uint32_t a = input.facets.of_node[link.a];
-    const std::uint32_t b = input.facets.of_node[link.b];
-    if (a == b || link.border == 0.0F)
-      continue;
-    const Eigen::Vector3d where = 0.5 * (input.nodes.sums(link.a).meanDirection() +
-                                         input.nodes.sums(link.b).meanDirection());
-    Border& border = borders[std::minmax(a, b)];
-    border.all += link.border;
-    if (meetSmoothly(input, windows.at(link.a), windows.at(link.b), where))
-      border.smooth += link.border;
-  }
-  for (const auto& [pair, border] : borders)
-    if (border.smooth >= kSmoothShare * border.all)
-      surfaces.join(pair.first, pair.second);
+  const Borders borders = bordersOf(
+      input.points.geometry, edges, cell_facet, input.facets.count(), size);
+  const BorderTest test(input, cell_facet, size);
+  BorderAgglomeration agglomeration(input.facets.count());
+  for (const auto& [key, piece] : borders)
+    agglomeration.add(
+        key.a, key.b, piece.cells, test.smooth(key.a, key.b, piece.middle));
+  agglomeration.joinInto(surfaces, kSmoothShare);
 }
 
 } // namespace nurbs

@@ -42,10 +42,18 @@ public:
     return facet_;
   }
 
-private:
+  /** Square of a point's distance from a facet, in units of the noise, but bounded;
+   * facets without a model are as far as it gets. */
   double
   residual(std::size_t cell, std::uint32_t facet) const;
 
+  void
+  assign(std::size_t cell, std::uint32_t facet)
+  {
+    facet_[cell] = facet;
+  }
+
+private:
   std::uint32_t
   bestNeighbour(std::size_t cell, double sigmas) const;
 

@@ -12,11 +12,11 @@ namespace nurbs {
 
 SurfaceCriterion::SurfaceCriterion(const ViewChart& chart,
                                    const SurfaceGroupingOptions& options,
-                                   double points_per_sample,
+                                   double dispersion,
                                    double variance_scale)
     : chart_(chart),
       options_(options),
-      points_per_sample_(points_per_sample),
+      dispersion_(dispersion),
       variance_scale_(variance_scale)
 {
 }
@@ -50,8 +50,8 @@ SurfaceCriterion::borderSaving(double pixels) const
 CostedModel
 SurfaceCriterion::best(const ViewSums& sums, int most) const
 {
-  const double samples = sums.count() / points_per_sample_;
-  const double weight = 0.5 / (points_per_sample_ * variance_scale_);
+  const double samples = sums.count() * variance_scale_ / dispersion_;
+  const double weight = 0.5 / dispersion_;
   CostedModel best;
   best.cost = std::numeric_limits<double>::infinity();
   for (const int terms : chart_.termChoices()) {

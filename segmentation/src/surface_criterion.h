@@ -20,10 +20,11 @@ struct CostedModel {
 /** What groups cost, by the options; in nats (half of AIC's and BIC's scale). */
 class SurfaceCriterion {
 public:
-  /** \param[in] variance_scale how much larger the variance is than the sensor's */
+  /** \param[in] dispersion see noiseDispersion(): what the misfit is divided by
+   * \param[in] variance_scale how much larger the variance is than the sensor's */
   SurfaceCriterion(const ViewChart& chart,
                    const SurfaceGroupingOptions& options,
-                   double points_per_sample,
+                   double dispersion,
                    double variance_scale);
 
   /** The number of terms of least cost; \a most bounds it. */
@@ -33,6 +34,13 @@ public:
   /** What is saved when \a pixels of border, of two groups each, vanish. */
   double
   borderSaving(double pixels) const;
+
+  /** The misfit that costs so much. */
+  double
+  misfitWorth(double cost) const
+  {
+    return 2.0 * dispersion_ * cost;
+  }
 
   /** Mean square residual in units of the noise. */
   double
@@ -64,7 +72,7 @@ private:
 
   const ViewChart& chart_;
   SurfaceGroupingOptions options_;
-  double points_per_sample_;
+  double dispersion_;
   double variance_scale_;
 };
 

@@ -3,6 +3,8 @@
 
 #include <pcl/segmentation/surface_grouping.h>
 
+#include "facet_selection.h"
+#include "noise_dispersion.h"
 #include "surface_borders.h"
 #include "surface_labels.h"
 #include "surface_merging.h"
@@ -10,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <cstdlib>
+#include <cstdio>
 
 namespace pcl {
 namespace nurbs {
@@ -33,23 +37,6 @@ requireValid(const GridPoints& points,
     throw std::invalid_argument("groupSurfaces: thresholds must be positive");
   if (options.threads < 1)
     throw std::invalid_argument("groupSurfaces: there must be a thread");
-}
-
-double
-pointsPerSample(const GridGeometry& grid, const SurfaceGroupingOptions& options)
-{
-  constexpr double kCamera = 64.0;
-  constexpr double kLaser = 4.0;
-  if (options.points_per_sample > 0.0)
-    return options.points_per_sample;
-  switch (grid.projection) {
-  case GridProjection::perspective:
-    return kCamera;
-  case GridProjection::spherical:
-    return kLaser;
-  default:
-    return 1.0;
-  }
 }
 
 /** Blocks, coarse to fine, about as wide as high on a surface that faces the sensor. */
@@ -114,10 +101,12 @@ groupSurfaces(const GridPoints& points,
   SurfaceNodes nodes(points, edges, chart);
   const std::vector<BlockSize> sizes = blockSizes(points.geometry);
   nodes.addBlocks(sizes.front(), options.fit_sigmas, options.threads);
-  const SurfaceCriterion criterion(chart,
-                                   options,
-                                   pointsPerSample(points.geometry, options),
-                                   nodes.varianceScale());
+  const double dispersion =
+      options.points_per_sample > 0.0
+          ? options.points_per_sample * nodes.varianceScale()
+          : noiseDispersion(points.geometry, nodes, chart, sizes.front());
+  const SurfaceCriterion criterion(chart, options, dispersion, nodes.varianceScale());
+  if (getenv("DBG")) printf("lambda %g v %g\n", dispersion, nodes.varianceScale());
   SurfaceMerging merging(criterion);
   merging.add(nodes, nodes.links(0, options.threads));
   merging.mergeWhileBetter();
@@ -131,14 +120,15 @@ groupSurfaces(const GridPoints& points,
   const SurfaceFacets facets = facetsOf(merging, nodes.count());
   const JoiningInput input{points, chart, nodes, facets, criterion, options};
   DisjointSets surfaces(facets.count());
-  if (options.join_smooth)
-    joinSmooth(input, nodes.links(0, options.threads), surfaces);
-  if (options.join_separated)
-    joinSeparated(input, surfaces);
   CellFacets cells(input, edges);
   cells.grow(options.point_sigmas);
-  surfaces.grow(cells.addLeftOver(facets.count()));
+  dropRedundantFacets(input, edges, cells);
   cells.refine();
+  if (options.join_smooth)
+    joinSmooth(input, edges, cells.labels(), sizes.front(), surfaces);
+  if (options.join_separated)
+    joinSeparated(input, surfaces);
+  surfaces.grow(cells.addLeftOver(facets.count()));
   return labelSurfaces(input, edges, cells.labels(), surfaces, labels, groups);
 }
 

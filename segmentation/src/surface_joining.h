@@ -37,11 +37,16 @@ struct JoiningInput {
 };
 
 /** Join facets that meet without a step or a fold along most of their border: their
- * positions and normals are compared there, by local fits on either side. Curved
- * surfaces no single polynomial follows become whole again. O(border nodes). */
+ * positions and normals are compared there, by fits to the points near the border on
+ * either side. Curved surfaces no single polynomial follows become whole again. O(cells
+ * + border cells).
+ * \param[in] cell_facet facet of each cell
+ * \param[in] size of the blocks of nodes: fits reach twice as far */
 void
 joinSmooth(const JoiningInput& input,
-           const std::vector<NodeLink>& links,
+           const KeptEdges& edges,
+           const std::vector<std::uint32_t>& cell_facet,
+           BlockSize size,
            DisjointSets& surfaces);
 
 /** Join facets that one model explains although they do not touch, when the gap between

@@ -28,8 +28,8 @@ enum class GroupingCriterion {
 /** \brief Options of groupSurfaces(). */
 struct SurfaceGroupingOptions {
   GroupingCriterion criterion = GroupingCriterion::DescriptionLength;
-  /** Neighbouring readings err alike: so many count as one. 0 for what suits the
-   * sensor: 64 pixels of a depth camera, 4 samples of a laser. */
+  /** Neighbouring readings err alike: so many count as one. 0 to measure it in the
+   * cloud: 1 for independent noise, 10 to 100 for the pixels of a depth camera. */
   double points_per_sample = 0.0;
   /** Storage of a coefficient, a patch and a border pixel (nats); DescriptionLength
    * alone looks at them. */
