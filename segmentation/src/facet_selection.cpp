@@ -10,6 +10,8 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
+constexpr std::size_t kStripWidth = 16; // cells
+
 using Cells = std::vector<std::size_t>;
 
 /** Tries to do without single facets. */
@@ -31,8 +33,13 @@ public:
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return members_[a].size() < members_[b].size();
     });
+    // Strips along a fold are long, but as narrow as the blocks.
+    const GridGeometry& grid = input_.points.geometry;
+    const std::size_t most =
+        kStripWidth * static_cast<std::size_t>(grid.width + grid.height);
     for (const std::uint32_t facet : order)
-      tryWithout(facet);
+      if (members_[facet].size() <= most)
+        tryWithout(facet);
   }
 
 private:

@@ -47,15 +47,8 @@ blocksOf(const GridGeometry& grid, const SurfaceNodes& nodes, BlockSize size)
   const auto rows = static_cast<std::size_t>(size.rows);
   BlockSums blocks((width + columns - 1) / columns,
                    (static_cast<std::size_t>(grid.height) + rows - 1) / rows);
-  const std::vector<std::uint32_t>& node = nodes.ofCell();
-  for (std::size_t cell = 0; cell < node.size(); ++cell) {
-    if (node[cell] == SurfaceNodes::kNone)
-      continue;
-    std::optional<ViewSums>& sums =
-        blocks.sums[cell / width / rows * blocks.across + cell % width / columns];
-    if (!sums)
-      sums = nodes.sums(node[cell]);
-  }
+  for (std::uint32_t node = 0; node < nodes.count(); ++node)
+    blocks.sums[nodes.block(node)] = nodes.sums(node);
   return blocks;
 }
 

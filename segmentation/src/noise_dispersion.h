@@ -16,9 +16,9 @@ namespace nurbs {
  * less that of a model each, divided by the coefficients saved; a lower quantile, for
  * some of the squares hold a fold. Squares of blocks twice as wide as \a size are used
  * if there are enough, as errors are alike over long distances.
- * \param[in] nodes the blocks of size \a size
+ * \param[in] nodes blocks of size \a size and no others
  * \return nothing smaller than 1/4: exact points would make every curve significant; 1
- * when there are too few blocks to tell. O(cells) */
+ * when there are too few blocks to tell. O(nodes) */
 double
 noiseDispersion(const GridGeometry& grid,
                 const SurfaceNodes& nodes,

@@ -10,8 +10,8 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
-/** How far from a border, in cells, points may change sides. */
-constexpr int kBand = 8;
+/** How often borders move on, by a cell or more. */
+constexpr int kSweeps = 16;
 /** What a neighbour of another facet costs, in units of a squared residual. */
 constexpr double kNeighbourCost = 1.0;
 /** Residuals beyond this many standard deviations say no more than this. */
@@ -72,8 +72,11 @@ CellFacets::grow(double sigmas)
     list.push_back(cell);
   };
   for (std::size_t cell = 0; cell < facet_.size(); ++cell)
-    if (facet_[cell] != kNone)
-      edges_.forEachNeighbour(cell, [&](std::size_t next) { offer(next, front); });
+    if (facet_[cell] == kNone)
+      edges_.forEachNeighbour(cell, [&](std::size_t next) {
+        if (facet_[next] != kNone)
+          offer(cell, front);
+      });
   while (!front.empty()) {
     // A ring at a time, so that no facet is ahead of the others.
     std::vector<std::uint32_t> chosen;
@@ -117,32 +120,23 @@ CellFacets::addLeftOver(std::uint32_t first)
 }
 
 std::vector<std::size_t>
-CellFacets::nearBorders() const
+CellFacets::atBorders() const
 {
-  std::vector<std::uint8_t> seen(facet_.size(), 0);
-  std::vector<std::size_t> band;
-  for (std::size_t cell = 0; cell < facet_.size(); ++cell)
-    if (facet_[cell] != kNone)
-      edges_.forEachNeighbour(cell, [&](std::size_t next) {
-        if (seen[cell] == 0 && facet_[next] != kNone && facet_[next] != facet_[cell]) {
-          seen[cell] = 1;
-          band.push_back(cell);
-        }
-      });
-  std::size_t begin = 0;
-  for (int ring = 1; ring < kBand; ++ring) {
-    const std::size_t end = band.size();
-    for (std::size_t k = begin; k < end; ++k)
-      edges_.forEachNeighbour(band[k], [&](std::size_t next) {
-        if (seen[next] == 0 && facet_[next] != kNone) {
-          seen[next] = 1;
-          band.push_back(next);
-        }
-      });
-    begin = end;
-  }
-  std::sort(band.begin(), band.end());
-  return band;
+  std::vector<std::uint8_t> border(facet_.size(), 0);
+  const GridGraph& graph = edges_.graph();
+  for (int d = 0; d < graph.numDirections(); ++d)
+    for (std::size_t cell = 0; cell < facet_.size(); ++cell) {
+      if (facet_[cell] == kNone || !edges_.keeps(d, cell))
+        continue;
+      const auto next = static_cast<std::size_t>(graph.target(d)[cell]);
+      if (facet_[next] != kNone && facet_[next] != facet_[cell])
+        border[cell] = border[next] = 1;
+    }
+  std::vector<std::size_t> cells;
+  for (std::size_t cell = 0; cell < border.size(); ++cell)
+    if (border[cell] != 0)
+      cells.push_back(cell);
+  return cells;
 }
 
 std::uint32_t
@@ -171,16 +165,25 @@ CellFacets::cheapest(std::size_t cell) const
 void
 CellFacets::refine()
 {
-  const std::vector<std::size_t> band = nearBorders();
-  for (int sweep = 0; sweep < 2 * kBand; ++sweep) {
-    bool changed = false;
-    for (const std::size_t cell : band) {
+  std::vector<std::size_t> front = atBorders();
+  std::vector<std::uint8_t> waiting(facet_.size(), 0);
+  for (int sweep = 0; sweep < kSweeps && !front.empty(); ++sweep) {
+    std::vector<std::size_t> next;
+    for (const std::size_t cell : front) {
+      waiting[cell] = 0;
       const std::uint32_t best = cheapest(cell);
-      changed = changed || best != facet_[cell];
+      if (best == facet_[cell])
+        continue;
       facet_[cell] = best;
+      edges_.forEachNeighbour(cell, [&](std::size_t other) {
+        if (waiting[other] == 0 && facet_[other] != kNone) {
+          waiting[other] = 1;
+          next.push_back(other);
+        }
+      });
     }
-    if (!changed)
-      break;
+    std::sort(next.begin(), next.end());
+    front.swap(next);
   }
 }
 

@@ -58,7 +58,7 @@ private:
   bestNeighbour(std::size_t cell, double sigmas) const;
 
   std::vector<std::size_t>
-  nearBorders() const;
+  atBorders() const;
 
   std::uint32_t
   cheapest(std::size_t cell) const;

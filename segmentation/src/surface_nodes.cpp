@@ -175,6 +175,7 @@ SurfaceNodes::append(const std::vector<Block>& blocks, BlockSize size, double li
         of_cell_[cell] = count();
     });
     sums_.push_back(block.sums);
+    block_.push_back(block.index);
   }
 }
 

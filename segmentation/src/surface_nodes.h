@@ -57,6 +57,13 @@ public:
     return sums_[node];
   }
 
+  /** Number of a node's block, row by row, among those of its size. */
+  std::size_t
+  block(std::uint32_t node) const
+  {
+    return block_[node];
+  }
+
   /** Node of each cell, or kNone. */
   const std::vector<std::uint32_t>&
   ofCell() const
@@ -91,6 +98,7 @@ private:
   const ViewChart& chart_;
   std::vector<std::uint32_t> of_cell_;
   std::vector<ViewSums> sums_;
+  std::vector<std::size_t> block_;
   double variance_scale_ = 0.0; // not measured yet
 };
 

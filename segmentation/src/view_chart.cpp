@@ -67,7 +67,8 @@ ViewChart::sigma(double depth) const
 {
   const double shape = kSpacingShare * (spacing_ + spacing_per_depth_ * depth) +
                        kDepthShare * (angular_ ? depth : scale_);
-  const double both = std::hypot(noise_.sigma(depth), shape);
+  const double sensor = noise_.sigma(depth);
+  const double both = std::sqrt(sensor * sensor + shape * shape);
   return angular_ ? both / (depth * depth) : both;
 }
 
