@@ -102,7 +102,7 @@ private:
         best = facet;
       }
     }
-    misfit += least * input_.criterion.varianceScale();
+    misfit += least;
     return best;
   }
 

@@ -96,9 +96,7 @@ public:
     const Eigen::Vector3d where = chart.direction(cell);
     const std::array<double, kMostViewTerms> basis = chart.basis(where);
     const double step = std::abs(fit_a(basis) - fit_b(basis));
-    const double sigma =
-        chart.sigma(static_cast<double>(input_.points.depth[cell])) *
-        std::sqrt(input_.criterion.varianceScale());
+    const double sigma = chart.sigma(static_cast<double>(input_.points.depth[cell]));
     const double cosine = chart.normal(fit_a, where).dot(chart.normal(fit_b, where));
     return step <= kStepSigmas * sigma &&
            cosine >= std::cos(input_.options.crease_angle);

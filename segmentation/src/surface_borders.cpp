@@ -22,7 +22,6 @@ constexpr double kMostSigmas = 6.0;
 CellFacets::CellFacets(const JoiningInput& input, const KeptEdges& edges)
     : input_(input),
       edges_(edges),
-      inverse_scale_(1.0 / input.criterion.varianceScale()),
       facet_(input.points.size(), kNone)
 {
   const std::vector<std::uint32_t>& node = input.nodes.ofCell();
@@ -38,7 +37,7 @@ CellFacets::residual(std::size_t cell, std::uint32_t facet) const
     return kMostSigmas * kMostSigmas; // without a model
   const ViewSample sample = input_.chart.sample(cell);
   const double off = sample.value - input_.facets.models[facet].surface(sample.basis);
-  return std::min(off * off * sample.weight * inverse_scale_,
+  return std::min(off * off * sample.weight,
                   kMostSigmas * kMostSigmas);
 }
 
@@ -95,27 +94,53 @@ CellFacets::grow(double sigmas)
   }
 }
 
+std::vector<std::size_t>
+CellFacets::spread(std::size_t cell, std::uint32_t facet)
+{
+  std::vector<std::size_t> cells(1, cell);
+  facet_[cell] = facet;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    edges_.forEachNeighbour(cells[k], [&](std::size_t next) {
+      if (facet_[next] == kNone) {
+        facet_[next] = facet;
+        cells.push_back(next);
+      }
+    });
+  return cells;
+}
+
+bool
+CellFacets::isLine(const std::vector<std::size_t>& cells) const
+{
+  constexpr std::size_t kInnerShare = 10; // one in so many
+  const std::uint32_t facet = facet_[cells.front()];
+  const auto most = static_cast<std::size_t>(2 * edges_.graph().numDirections());
+  std::size_t inner = 0;
+  for (const std::size_t cell : cells) {
+    std::size_t same = 0;
+    edges_.forEachNeighbour(cell, [&](std::size_t next) {
+      same += facet_[next] == facet ? 1 : 0;
+    });
+    inner += 4 * same >= 3 * most ? 1 : 0;
+  }
+  return kInnerShare * inner < cells.size();
+}
+
 std::uint32_t
 CellFacets::addLeftOver(std::uint32_t first)
 {
-  std::vector<std::size_t> front;
+  std::vector<std::size_t> lines;
   for (std::size_t cell = 0; cell < facet_.size(); ++cell) {
     if (facet_[cell] != kNone || !input_.points.valid(cell))
       continue;
-    facet_[cell] = first;
-    front.assign(1, cell);
-    while (!front.empty()) {
-      const std::size_t here = front.back();
-      front.pop_back();
-      edges_.forEachNeighbour(here, [&](std::size_t next) {
-        if (facet_[next] == kNone) {
-          facet_[next] = first;
-          front.push_back(next);
-        }
-      });
-    }
-    ++first;
+    const std::vector<std::size_t> cells = spread(cell, first);
+    if (isLine(cells))
+      lines.insert(lines.end(), cells.begin(), cells.end());
+    else
+      ++first;
   }
+  for (const std::size_t cell : lines)
+    facet_[cell] = kNone;
   return first;
 }
 

@@ -26,8 +26,8 @@ public:
   void
   grow(double sigmas);
 
-  /** Connected cells without a facet become new ones, numbered on from \a first; as if
-   * each had a constant model. \return number of facets */
+  /** Connected cells without a facet become new ones without a model, numbered on from
+   * \a first, unless they are mere lines. \return number of facets */
   std::uint32_t
   addLeftOver(std::uint32_t first);
 
@@ -54,6 +54,14 @@ public:
   }
 
 private:
+  /** Give a cell and the cells without a facet that hang together with it a facet. */
+  std::vector<std::size_t>
+  spread(std::size_t cell, std::uint32_t facet);
+
+  /** Whether cells, a whole facet, are one or two cells wide. */
+  bool
+  isLine(const std::vector<std::size_t>& cells) const;
+
   std::uint32_t
   bestNeighbour(std::size_t cell, double sigmas) const;
 
@@ -65,7 +73,6 @@ private:
 
   const JoiningInput& input_;
   const KeptEdges& edges_;
-  double inverse_scale_; // of the variance
   std::vector<std::uint32_t> facet_;
 };
 

@@ -12,12 +12,10 @@ namespace nurbs {
 
 SurfaceCriterion::SurfaceCriterion(const ViewChart& chart,
                                    const SurfaceGroupingOptions& options,
-                                   double dispersion,
-                                   double variance_scale)
+                                   double dispersion)
     : chart_(chart),
       options_(options),
-      dispersion_(dispersion),
-      variance_scale_(variance_scale)
+      dispersion_(dispersion)
 {
 }
 
@@ -50,7 +48,7 @@ SurfaceCriterion::borderSaving(double pixels) const
 CostedModel
 SurfaceCriterion::best(const ViewSums& sums, int most) const
 {
-  const double samples = sums.count() * variance_scale_ / dispersion_;
+  const double samples = sums.count() / dispersion_;
   const double weight = 0.5 / dispersion_;
   CostedModel best;
   best.cost = std::numeric_limits<double>::infinity();
@@ -73,7 +71,7 @@ SurfaceCriterion::best(const ViewSums& sums, int most) const
 double
 SurfaceCriterion::meanSquare(const ViewSums& sums, const ViewPolynomial& surface) const
 {
-  return sums.misfit(surface) / (variance_scale_ * std::max(sums.count(), 1.0));
+  return sums.misfit(surface) / std::max(sums.count(), 1.0);
 }
 
 bool
@@ -82,7 +80,7 @@ SurfaceCriterion::fits(const ViewSums& sums,
                        double own_misfit) const
 {
   constexpr double kAsOwn = 1.5;
-  const double own = own_misfit / (variance_scale_ * std::max(sums.count(), 1.0));
+  const double own = own_misfit / std::max(sums.count(), 1.0);
   const double limit =
       std::max(options_.fit_sigmas * options_.fit_sigmas, kAsOwn * own);
   return meanSquare(sums, surface) <= limit;

@@ -20,12 +20,10 @@ struct CostedModel {
 /** What groups cost, by the options; in nats (half of AIC's and BIC's scale). */
 class SurfaceCriterion {
 public:
-  /** \param[in] dispersion see noiseDispersion(): what the misfit is divided by
-   * \param[in] variance_scale how much larger the variance is than the sensor's */
+  /** \param[in] dispersion see noiseDispersion(): what the misfit is divided by */
   SurfaceCriterion(const ViewChart& chart,
                    const SurfaceGroupingOptions& options,
-                   double dispersion,
-                   double variance_scale);
+                   double dispersion);
 
   /** The number of terms of least cost; \a most bounds it. */
   CostedModel
@@ -60,12 +58,6 @@ public:
          double border,
          double& saving) const;
 
-  double
-  varianceScale() const
-  {
-    return variance_scale_;
-  }
-
 private:
   double
   penalty(int terms, double samples) const;
@@ -73,7 +65,6 @@ private:
   const ViewChart& chart_;
   SurfaceGroupingOptions options_;
   double dispersion_;
-  double variance_scale_;
 };
 
 } // namespace nurbs

@@ -12,12 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <cstdlib>
-#include <cstdio>
 
-#include <chrono>
-static std::chrono::steady_clock::time_point t0;
-#define TICK(x) if (getenv("DBG")) { auto t=std::chrono::steady_clock::now(); printf("%6.1f %s\n", 1e3*std::chrono::duration<double>(t-t0).count(), x); t0=t; }
 namespace pcl {
 namespace nurbs {
 namespace {
@@ -70,6 +65,12 @@ edgeOptions(const SurfaceGroupingOptions& options)
   return result;
 }
 
+SensorNoise
+scaled(const SensorNoise& noise, double scale)
+{
+  return {scale * noise.constant, scale * noise.quadratic, noise.reference};
+}
+
 SurfaceFacets
 facetsOf(SurfaceMerging& merging, std::uint32_t nodes)
 {
@@ -99,55 +100,40 @@ groupSurfaces(const GridPoints& points,
               std::vector<SurfaceGroup>* groups)
 {
   requireValid(points, graph, options);
-  TICK("start")
-  const KeptEdges edges(points, graph, noise, edgeOptions(options));
-  TICK("before const ViewChart chart(")
-  const ViewChart chart(points, noise);
-  TICK("before SurfaceNodes nodes(")
-  SurfaceNodes nodes(points, edges, chart);
   const std::vector<BlockSize> sizes = blockSizes(points.geometry);
+  const double scale =
+      measureNoiseScale(points, ViewChart(points, noise), sizes.front());
+  const ViewChart chart(points, noise, scale);
+  const KeptEdges edges(points, graph, scaled(noise, scale), edgeOptions(options));
+  SurfaceNodes nodes(points, edges, chart);
   nodes.addBlocks(sizes.front(), options.fit_sigmas, options.threads);
-  TICK("before const double dispersion")
   const double dispersion =
       options.points_per_sample > 0.0
-          ? options.points_per_sample * nodes.varianceScale()
+          ? options.points_per_sample
           : noiseDispersion(points.geometry, nodes, chart, sizes.front());
-  const SurfaceCriterion criterion(chart, options, dispersion, nodes.varianceScale());
-  if (getenv("DBG")) printf("lambda %g v %g\n", dispersion, nodes.varianceScale());
-  TICK("before SurfaceMerging merging(")
+  const SurfaceCriterion criterion(chart, options, dispersion);
   SurfaceMerging merging(criterion);
   merging.add(nodes, nodes.links(0, options.threads));
-  TICK("links")
   merging.mergeWhileBetter();
-  TICK("before for (std::size_t rate = 1")
   for (std::size_t rate = 1; rate < sizes.size(); ++rate) {
     const std::uint32_t first = nodes.count();
     nodes.addBlocks(sizes[rate], options.fit_sigmas, options.threads);
     merging.add(nodes, nodes.links(first, options.threads));
     merging.joinLikeliest(first);
-    TICK("links")
-  merging.mergeWhileBetter();
+    merging.mergeWhileBetter();
   }
-  TICK("before const SurfaceFacets facets =")
   const SurfaceFacets facets = facetsOf(merging, nodes.count());
   const JoiningInput input{points, chart, nodes, facets, criterion, options};
   DisjointSets surfaces(facets.count());
   CellFacets cells(input, edges);
-  TICK("before cells.grow(")
   cells.grow(options.point_sigmas);
-  TICK("before dropRedundant")
   dropRedundantFacets(input, edges, cells);
-  TICK("before cells.refine()")
   cells.refine();
-  TICK("before if (options.join_smooth)")
   if (options.join_smooth)
     joinSmooth(input, edges, cells.labels(), sizes.front(), surfaces);
-  TICK("before if (options.join_sep")
   if (options.join_separated)
     joinSeparated(input, surfaces);
-  TICK("before surfaces.grow(")
   surfaces.grow(cells.addLeftOver(facets.count()));
-  TICK("before return labelSurfaces(")
   return labelSurfaces(input, edges, cells.labels(), surfaces, labels, groups);
 }
 

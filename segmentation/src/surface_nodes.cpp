@@ -4,6 +4,7 @@
 #include "surface_nodes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pcl {
@@ -45,6 +46,29 @@ forEachCell(const GridGeometry& grid,
     for (int column = left; column < right; ++column)
       visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) +
             static_cast<std::size_t>(column));
+}
+
+ViewSums
+blockSums(const GridPoints& points,
+          const ViewChart& chart,
+          BlockSize size,
+          std::size_t block)
+{
+  ViewSums sums;
+  forEachCell(points.geometry, size, block, [&](std::size_t cell) {
+    if (points.valid(cell))
+      sums.add(chart.sample(cell));
+  });
+  return sums;
+}
+
+/** Mean square residual of a block's own model, per degree of freedom. */
+double
+meanSquare(const ViewSums& sums, const ViewChart& chart)
+{
+  const int rich = blockTerms(chart);
+  const int terms = sums.count() >= 2.0 * rich ? rich : chart.termChoices().front();
+  return sums.misfit(sums.fit(terms)) / std::max(1.0, sums.count() - terms);
 }
 
 /** Adds up what edges tell about pairs of nodes. */
@@ -133,35 +157,9 @@ SurfaceNodes::gather(std::size_t index, BlockSize size) const
   const int least = std::max(4, size.columns * size.rows / share);
   if (!usable || members < static_cast<std::size_t>(least))
     return block;
-  forEachCell(grid, size, index, [&](std::size_t cell) {
-    if (points_.valid(cell))
-      block.sums.add(chart_.sample(cell));
-  });
-  const int terms = blockTerms(chart_);
-  const bool rich = members >= static_cast<std::size_t>(2 * terms);
-  const int used = rich ? terms : chart_.termChoices().front();
-  const double freedom = std::max(1.0, static_cast<double>(members) - used);
-  block.mean_square = block.sums.misfit(block.sums.fit(used)) / freedom;
+  block.sums = blockSums(points_, chart_, size, index);
+  block.mean_square = meanSquare(block.sums, chart_);
   return block;
-}
-
-void
-SurfaceNodes::measureNoise(const std::vector<Block>& blocks)
-{
-  // Most blocks of a scene are smooth, or at least a good part of them.
-  constexpr double kQuantile = 0.3;
-  std::vector<double> squares;
-  for (const Block& block : blocks)
-    if (block.mean_square >= 0.0)
-      squares.push_back(block.mean_square);
-  variance_scale_ = 1.0;
-  if (squares.empty())
-    return;
-  const auto where =
-      squares.begin() +
-      static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(squares.size()));
-  std::nth_element(squares.begin(), where, squares.end());
-  variance_scale_ = std::max(1.0, *where);
 }
 
 void
@@ -193,14 +191,8 @@ SurfaceNodes::addBlocks(BlockSize size, double sigmas, int threads)
       if (block.mean_square >= 0.0)
         found[static_cast<std::size_t>(row)].push_back(block);
     }
-  if (variance_scale_ == 0.0) {
-    std::vector<Block> all;
-    for (const std::vector<Block>& line : found)
-      all.insert(all.end(), line.begin(), line.end());
-    measureNoise(all);
-  }
   for (const std::vector<Block>& line : found)
-    append(line, size, sigmas * sigmas * variance_scale_);
+    append(line, size, sigmas * sigmas);
 }
 
 std::vector<NodeLink>
@@ -226,6 +218,31 @@ SurfaceNodes::links(std::uint32_t first, int threads) const
     for (const NodeLink& link : one.take())
       all.add(link.a, link.b, link.border, link.weight);
   return all.take();
+}
+
+double
+measureNoiseScale(const GridPoints& points, const ViewChart& chart, BlockSize size)
+{
+  // A good part of the blocks of a scene is smooth.
+  constexpr double kQuantile = 0.3;
+  constexpr std::size_t kSample = 600;
+  constexpr double kMuchLarger = 2.0; // in variance; less may be chance
+  const Blocks shape(points.geometry, size);
+  const std::size_t count = shape.across * shape.down;
+  const double least = 2.0 * blockTerms(chart);
+  std::vector<double> squares;
+  for (std::size_t block = 0; block < count; block += count / kSample + 1) {
+    const ViewSums sums = blockSums(points, chart, size, block);
+    if (sums.count() >= least)
+      squares.push_back(meanSquare(sums, chart));
+  }
+  if (squares.empty())
+    return 1.0;
+  const auto where =
+      squares.begin() +
+      static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(squares.size()));
+  std::nth_element(squares.begin(), where, squares.end());
+  return *where > kMuchLarger ? std::sqrt(*where) : 1.0;
 }
 
 } // namespace nurbs

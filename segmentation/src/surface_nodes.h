@@ -36,8 +36,7 @@ public:
   SurfaceNodes(const GridPoints& points, const KeptEdges& edges, const ViewChart& chart);
 
   /** Add every block of free cells of this size that has no cut inside and is smooth
-   * within \a sigmas standard deviations. The first call also measures how much larger
-   * than stated the noise is. */
+   * within \a sigmas standard deviations. */
   void
   addBlocks(BlockSize size, double sigmas, int threads);
 
@@ -71,13 +70,6 @@ public:
     return of_cell_;
   }
 
-  /** Measured variance of smooth blocks over that of the stated noise, at least 1. */
-  double
-  varianceScale() const
-  {
-    return variance_scale_;
-  }
-
 private:
   struct Block;
 
@@ -88,9 +80,6 @@ private:
   gather(std::size_t block, BlockSize size) const;
 
   void
-  measureNoise(const std::vector<Block>& blocks);
-
-  void
   append(const std::vector<Block>& blocks, BlockSize size, double limit);
 
   const GridPoints& points_;
@@ -99,8 +88,13 @@ private:
   std::vector<std::uint32_t> of_cell_;
   std::vector<ViewSums> sums_;
   std::vector<std::size_t> block_;
-  double variance_scale_ = 0.0; // not measured yet
 };
+
+/** How much larger than stated the noise is, at least 1: from what blocks of cells
+ * deviate from smooth ones, whether or not they hold a jump; a lower quantile of a
+ * sample of them. */
+double
+measureNoiseScale(const GridPoints& points, const ViewChart& chart, BlockSize size);
 
 } // namespace nurbs
 } // namespace pcl

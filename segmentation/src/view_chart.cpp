@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace pcl {
 namespace nurbs {
@@ -41,14 +42,19 @@ boundsOf(const GridPoints& points, const Eigen::Matrix3d& frame)
 
 } // namespace
 
-ViewChart::ViewChart(const GridPoints& points, const SensorNoise& noise)
+ViewChart::ViewChart(const GridPoints& points,
+                     const SensorNoise& noise,
+                     double noise_scale)
     : points_(points),
       noise_(noise),
+      noise_scale_(noise_scale),
       angular_(isInverseDepthGrid(points.geometry)),
       spherical_(points.geometry.projection == GridProjection::spherical),
       frame_(points.geometry.frame),
       choices_(spherical_ ? std::vector<int>{3, 9} : std::vector<int>{3, 6, 10})
 {
+  if (!(noise_scale > 0.0))
+    throw std::invalid_argument("ViewChart: the noise's scale must be positive");
   const GridSpacing spacing(points.geometry, GridGraph::kRight);
   const bool lattice = points.geometry.projection == GridProjection::lattice;
   spacing_ = lattice ? 0.0 : static_cast<double>(spacing.constant);
@@ -68,7 +74,7 @@ ViewChart::sigma(double depth) const
   const double shape = kSpacingShare * (spacing_ + spacing_per_depth_ * depth) +
                        kDepthShare * (angular_ ? depth : scale_);
   const double sensor = noise_.sigma(depth);
-  const double both = std::sqrt(sensor * sensor + shape * shape);
+  const double both = noise_scale_ * std::sqrt(sensor * sensor + shape * shape);
   return angular_ ? both / (depth * depth) : both;
 }
 

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 
@@ -104,6 +105,7 @@ draw(const std::string& input,
   std::vector<std::uint32_t> labels;
   SurfaceGroupingOptions options;
   options.threads = static_cast<int>(threads);
+  if (getenv("PPS")) options.points_per_sample = atof(getenv("PPS"));
   ConnectedGroupsOptions connected;
   connected.threads = static_cast<int>(threads);
   const std::uint32_t count = surfaces

@@ -57,9 +57,10 @@ struct PCL_NURBS_SEGMENTATION_EXPORT ViewPolynomial {
 class PCL_NURBS_SEGMENTATION_EXPORT ViewChart {
 public:
   /** \brief The domain of a cloud; keeps a reference to it. The noise is at least a
-   * small share of the point spacing: what lies between samples is unknown anyway. O(1)
-   * for a sensor's grid, O(cells) for others. */
-  ViewChart(const GridPoints& points, const SensorNoise& noise);
+   * small share of the point spacing: what lies between samples is unknown anyway; all
+   * of it times \a noise_scale. O(1) for a sensor's grid, O(cells) for others.
+   * \throws std::invalid_argument unless the scale is positive */
+  ViewChart(const GridPoints& points, const SensorNoise& noise, double noise_scale = 1);
 
   /** \brief A valid cell's point. O(1). */
   ViewSample
@@ -95,6 +96,7 @@ public:
 private:
   const GridPoints& points_;
   SensorNoise noise_;
+  double noise_scale_;
   bool angular_;
   bool spherical_;
   Eigen::Matrix3d frame_;
