@@ -146,29 +146,45 @@ SurfaceMerging::pushGrown(std::uint32_t root)
   }
 }
 
-void
-SurfaceMerging::mergeWhileBetter()
+bool
+SurfaceMerging::mergeOnce()
 {
   // A link that waits in the queue is looked at again when its turn comes, one that did
   // not pay when its groups have grown, and at last when nothing else is left.
-  for (pushChanged(); !queue_.empty(); pushChanged())
-    while (!queue_.empty()) {
-      const std::uint32_t number = queue_.top().link;
-      queue_.pop();
-      Link& link = links_[number];
-      link.queued = false;
-      if (!link.alive)
-        continue;
-      if (link.changes != changesOf(link)) {
-        push(number);
-        continue;
-      }
-      double priority = 0.0;
-      const std::optional<CostedModel> model = evaluate(number, priority);
-      const std::uint32_t root = unite(number);
-      groups_[root].model = *model; // as when it was queued: nothing has changed
-      pushGrown(root);
+  if (queue_.empty())
+    pushChanged();
+  while (!queue_.empty()) {
+    const std::uint32_t number = queue_.top().link;
+    queue_.pop();
+    Link& link = links_[number];
+    link.queued = false;
+    if (link.alive && link.changes != changesOf(link))
+      push(number);
+    else if (link.alive) {
+      merge(number);
+      return true;
     }
+    if (queue_.empty())
+      pushChanged();
+  }
+  return false;
+}
+
+void
+SurfaceMerging::merge(std::uint32_t number)
+{
+  double priority = 0.0;
+  const std::optional<CostedModel> model = evaluate(number, priority);
+  const std::uint32_t root = unite(number);
+  groups_[root].model = *model; // as when it was queued: nothing has changed
+  pushGrown(root);
+}
+
+void
+SurfaceMerging::mergeWhileBetter()
+{
+  while (mergeOnce()) {
+  }
 }
 
 std::uint32_t

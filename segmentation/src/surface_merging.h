@@ -40,6 +40,10 @@ public:
   void
   mergeWhileBetter();
 
+  /** One step of mergeWhileBetter(). \return false when no merge pays */
+  bool
+  mergeOnce();
+
   std::uint32_t
   find(std::uint32_t node)
   {
@@ -103,6 +107,9 @@ private:
 
   void
   pushGrown(std::uint32_t root);
+
+  void
+  merge(std::uint32_t link);
 
   std::uint32_t
   unite(std::uint32_t link);
