@@ -96,9 +96,8 @@ public:
     const Eigen::Vector3d where = chart.direction(cell);
     const std::array<double, kMostViewTerms> basis = chart.basis(where);
     const double step = std::abs(fit_a(basis) - fit_b(basis));
-    const double sigma = chart.sigma(static_cast<double>(input_.points.depth[cell]));
     const double cosine = chart.normal(fit_a, where).dot(chart.normal(fit_b, where));
-    return step <= kStepSigmas * sigma &&
+    return step <= kStepSigmas * chart.sigma(cell) &&
            cosine >= std::cos(input_.options.crease_angle);
   }
 

@@ -101,9 +101,9 @@ groupSurfaces(const GridPoints& points,
 {
   requireValid(points, graph, options);
   const std::vector<BlockSize> sizes = blockSizes(points.geometry);
-  const double scale =
-      measureNoiseScale(points, ViewChart(points, noise), sizes.front());
-  const ViewChart chart(points, noise, scale);
+  ViewChart chart(points, noise, graph);
+  const double scale = measureNoiseScale(points, chart, sizes.front());
+  chart.scaleNoise(scale);
   const KeptEdges edges(points, graph, scaled(noise, scale), edgeOptions(options));
   SurfaceNodes nodes(points, edges, chart);
   nodes.addBlocks(sizes.front(), options.fit_sigmas, options.threads);

@@ -21,6 +21,31 @@ constexpr double kSpacingShare = 0.05;
 /** The same as a share of the depth, for grids that know no spacing. */
 constexpr double kDepthShare = 1e-5;
 
+/** Share of the change of depth from cell to cell that directions err by. */
+constexpr double kSlopeShare = 0.1;
+
+/** Change of depth to the neighbour in either direction that is nearer in depth, in
+ * rows or columns, whichever is more. */
+std::vector<float>
+slopesOf(const GridPoints& points, const GridGraph& graph)
+{
+  if (graph.numCells() != points.size())
+    throw std::invalid_argument("ViewChart: the graph is not of these points");
+  std::vector<float> slopes(points.size(), 0.0F);
+  for (const int d : {GridGraph::kRight, GridGraph::kDown})
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      float least = std::numeric_limits<float>::infinity();
+      for (const std::int32_t next : {graph.target(d)[i], graph.source(d)[i]})
+        if (next != GridGraph::kNone)
+          least = std::min(
+              least,
+              std::abs(points.depth[static_cast<std::size_t>(next)] - points.depth[i]));
+      if (std::isfinite(least))
+        slopes[i] = std::max(slopes[i], least);
+    }
+  return slopes;
+}
+
 struct Box {
   Eigen::Vector3d least =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
@@ -44,17 +69,15 @@ boundsOf(const GridPoints& points, const Eigen::Matrix3d& frame)
 
 ViewChart::ViewChart(const GridPoints& points,
                      const SensorNoise& noise,
-                     double noise_scale)
+                     const GridGraph& graph)
     : points_(points),
       noise_(noise),
-      noise_scale_(noise_scale),
       angular_(isInverseDepthGrid(points.geometry)),
       spherical_(points.geometry.projection == GridProjection::spherical),
       frame_(points.geometry.frame),
-      choices_(spherical_ ? std::vector<int>{3, 9} : std::vector<int>{3, 6, 10})
+      choices_(spherical_ ? std::vector<int>{3, 9} : std::vector<int>{3, 6, 10}),
+      slope_(slopesOf(points, graph))
 {
-  if (!(noise_scale > 0.0))
-    throw std::invalid_argument("ViewChart: the noise's scale must be positive");
   const GridSpacing spacing(points.geometry, GridGraph::kRight);
   const bool lattice = points.geometry.projection == GridProjection::lattice;
   spacing_ = lattice ? 0.0 : static_cast<double>(spacing.constant);
@@ -68,20 +91,25 @@ ViewChart::ViewChart(const GridPoints& points,
   scale_ = std::max((box.most - box.least).head<2>().maxCoeff(), 1e-12);
 }
 
-double
-ViewChart::sigma(double depth) const
+void
+ViewChart::scaleNoise(double factor)
 {
-  const double shape = kSpacingShare * (spacing_ + spacing_per_depth_ * depth) +
-                       kDepthShare * (angular_ ? depth : scale_);
-  const double sensor = noise_.sigma(depth);
-  const double both = noise_scale_ * std::sqrt(sensor * sensor + shape * shape);
-  return angular_ ? both / (depth * depth) : both;
+  if (!(factor > 0.0))
+    throw std::invalid_argument("ViewChart: the noise's factor must be positive");
+  noise_scale_ *= factor;
 }
 
 double
-ViewChart::depthOf(double value) const
+ViewChart::sigma(std::size_t cell) const
 {
-  return angular_ ? 1.0 / value : value + origin_.z();
+  const double depth = points_.depth[cell];
+  const double sensor = noise_.sigma(depth);
+  const double slope = kSlopeShare * static_cast<double>(slope_[cell]);
+  const double shape = kSpacingShare * (spacing_ + spacing_per_depth_ * depth) +
+                       kDepthShare * (angular_ ? depth : scale_);
+  const double all =
+      noise_scale_ * std::sqrt(sensor * sensor + slope * slope + shape * shape);
+  return angular_ ? all / (depth * depth) : all;
 }
 
 Eigen::Vector3d
@@ -111,7 +139,7 @@ ViewChart::sample(std::size_t cell) const
 {
   const double depth = points_.depth[cell];
   const Eigen::Vector3d e = direction(cell);
-  const double deviation = sigma(depth);
+  const double deviation = sigma(cell);
   return {e,
           basis(e),
           angular_ ? 1.0 / depth : depth - origin_.z(),

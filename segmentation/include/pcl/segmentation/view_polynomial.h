@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <pcl/segmentation/grid_graph.h>
 #include <pcl/segmentation/grid_points.h>
 #include <pcl/segmentation/sensor_noise.h>
 
@@ -56,11 +57,19 @@ struct PCL_NURBS_SEGMENTATION_EXPORT ViewPolynomial {
  */
 class PCL_NURBS_SEGMENTATION_EXPORT ViewChart {
 public:
-  /** \brief The domain of a cloud; keeps a reference to it. The noise is at least a
-   * small share of the point spacing: what lies between samples is unknown anyway; all
-   * of it times \a noise_scale. O(1) for a sensor's grid, O(cells) for others.
-   * \throws std::invalid_argument unless the scale is positive */
-  ViewChart(const GridPoints& points, const SensorNoise& noise, double noise_scale = 1);
+  /** \brief The domain of a cloud; keeps a reference to it.
+   *
+   * The noise is that of the sensor and a small share of what the depth changes by
+   * from a point to the next: directions err as well, which tells on surfaces at
+   * grazing angle; and at least a small share of the point spacing, for what lies
+   * between samples is unknown anyway. O(cells).
+   * \throws std::invalid_argument when the graph belongs to other points */
+  ViewChart(const GridPoints& points, const SensorNoise& noise, const GridGraph& graph);
+
+  /** \brief Multiply the noise.
+   * \throws std::invalid_argument unless the factor is positive */
+  void
+  scaleNoise(double factor);
 
   /** \brief A valid cell's point. O(1). */
   ViewSample
@@ -74,13 +83,9 @@ public:
   Eigen::Vector3d
   direction(std::size_t cell) const;
 
-  /** \brief Standard deviation of a value at a depth. */
+  /** \brief Standard deviation of a valid cell's value. */
   double
-  sigma(double depth) const;
-
-  /** \brief Depth that belongs to a value, as GridPoints has it. */
-  double
-  depthOf(double value) const;
+  sigma(std::size_t cell) const;
 
   /** \brief Unit normal, in the grid's frame, of a surface at a direction. */
   Eigen::Vector3d
@@ -96,7 +101,7 @@ public:
 private:
   const GridPoints& points_;
   SensorNoise noise_;
-  double noise_scale_;
+  double noise_scale_ = 1.0;
   bool angular_;
   bool spherical_;
   Eigen::Matrix3d frame_;
@@ -105,6 +110,7 @@ private:
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(); // of a height field
   double scale_ = 1.0;
   std::vector<int> choices_;
+  std::vector<float> slope_; // change of depth from cell to cell
 };
 
 /** \brief Sums over points from which the best polynomials follow: normal equations.
