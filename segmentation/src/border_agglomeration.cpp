@@ -16,7 +16,10 @@ BorderAgglomeration::Candidate::operator<(const Candidate& other) const
 }
 
 void
-BorderAgglomeration::add(std::uint32_t a, std::uint32_t b, std::size_t length, bool smooth)
+BorderAgglomeration::add(std::uint32_t a,
+                         std::uint32_t b,
+                         std::size_t length,
+                         bool smooth)
 {
   Border& sum = border(a, b);
   sum.all += length;

@@ -50,8 +50,9 @@ private:
     if (around_.empty())
       return;
     // Half of the border goes with the facet; the rest is a border still.
-    const double saved = input_.facets.models[facet].cost +
-                         input_.criterion.borderSaving(0.5 * static_cast<double>(border));
+    const double saved =
+        input_.facets.models[facet].cost +
+        input_.criterion.borderSaving(0.5 * static_cast<double>(border));
     const double allowed = input_.criterion.misfitWorth(saved);
     std::vector<std::uint32_t> chosen;
     double misfit = 0.0;

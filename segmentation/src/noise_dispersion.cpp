@@ -30,7 +30,8 @@ struct BlockSums {
     const std::size_t first = row * across + column;
     std::array<const ViewSums*, 4> result{};
     std::size_t next = 0;
-    for (const std::size_t block : {first, first + 1, first + across, first + across + 1}) {
+    for (const std::size_t block :
+         {first, first + 1, first + across, first + across + 1}) {
       if (!sums[block])
         return std::nullopt;
       result[next++] = &*sums[block];
@@ -90,9 +91,8 @@ savedPerCoefficient(const BlockSums& blocks, int terms)
       }
   if (saved.size() < kEnough)
     return std::nullopt;
-  const auto where =
-      saved.begin() +
-      static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(saved.size()));
+  const auto where = saved.begin() + static_cast<std::ptrdiff_t>(
+                                         kQuantile * static_cast<double>(saved.size()));
   std::nth_element(saved.begin(), where, saved.end());
   return *where;
 }

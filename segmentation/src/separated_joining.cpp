@@ -55,9 +55,8 @@ gapBetween(const GridGeometry& grid, const CellBox& a, const CellBox& b)
 {
   int across = std::max(a.left - b.right, b.left - a.right);
   if (grid.wrap)
-    across = std::min(across,
-                      grid.width - std::max(a.right, b.right) +
-                          std::min(a.left, b.left));
+    across = std::min(
+        across, grid.width - std::max(a.right, b.right) + std::min(a.left, b.left));
   return std::max(across, std::max(a.top - b.bottom, b.top - a.bottom));
 }
 
@@ -96,8 +95,7 @@ joinSeparated(const JoiningInput& input, DisjointSets& surfaces)
       const CellBox& a = boxes[large[i]];
       const CellBox& b = boxes[large[j]];
       if (surfaces.find(large[i]) != surfaces.find(large[j]) &&
-          gapBetween(input.points.geometry, a, b) <=
-              std::min(a.extent(), b.extent()) &&
+          gapBetween(input.points.geometry, a, b) <= std::min(a.extent(), b.extent()) &&
           oneSurface(input, large[i], large[j]))
         surfaces.join(large[i], large[j]);
     }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace pcl {
 namespace nurbs {
@@ -140,13 +141,20 @@ joinSmooth(const JoiningInput& input,
            BlockSize size,
            DisjointSets& surfaces)
 {
-  const Borders borders = bordersOf(
-      input.points.geometry, edges, cell_facet, input.facets.count(), size);
+  const Borders borders =
+      bordersOf(input.points.geometry, edges, cell_facet, input.facets.count(), size);
   const BorderTest test(input, cell_facet, size);
+  const std::vector<std::pair<BorderKey, BorderPiece>> pieces(borders.begin(),
+                                                              borders.end());
+  std::vector<std::uint8_t> smooth(pieces.size());
+#pragma omp parallel for schedule(dynamic, 16) num_threads(input.options.threads)
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    smooth[k] =
+        test.smooth(pieces[k].first.a, pieces[k].first.b, pieces[k].second.middle);
   BorderAgglomeration agglomeration(input.facets.count());
-  for (const auto& [key, piece] : borders)
+  for (std::size_t k = 0; k < pieces.size(); ++k)
     agglomeration.add(
-        key.a, key.b, piece.cells, test.smooth(key.a, key.b, piece.middle));
+        pieces[k].first.a, pieces[k].first.b, pieces[k].second.cells, smooth[k] != 0);
   agglomeration.joinInto(surfaces, kSmoothShare);
 }
 

@@ -20,9 +20,7 @@ constexpr double kMostSigmas = 6.0;
 } // namespace
 
 CellFacets::CellFacets(const JoiningInput& input, const KeptEdges& edges)
-    : input_(input),
-      edges_(edges),
-      facet_(input.points.size(), kNone)
+    : input_(input), edges_(edges), facet_(input.points.size(), kNone)
 {
   const std::vector<std::uint32_t>& node = input.nodes.ofCell();
   for (std::size_t cell = 0; cell < node.size(); ++cell)
@@ -37,8 +35,7 @@ CellFacets::residual(std::size_t cell, std::uint32_t facet) const
     return kMostSigmas * kMostSigmas; // without a model
   const ViewSample sample = input_.chart.sample(cell);
   const double off = sample.value - input_.facets.models[facet].surface(sample.basis);
-  return std::min(off * off * sample.weight,
-                  kMostSigmas * kMostSigmas);
+  return std::min(off * off * sample.weight, kMostSigmas * kMostSigmas);
 }
 
 std::uint32_t
@@ -118,9 +115,8 @@ CellFacets::isLine(const std::vector<std::size_t>& cells) const
   std::size_t inner = 0;
   for (const std::size_t cell : cells) {
     std::size_t same = 0;
-    edges_.forEachNeighbour(cell, [&](std::size_t next) {
-      same += facet_[next] == facet ? 1 : 0;
-    });
+    edges_.forEachNeighbour(
+        cell, [&](std::size_t next) { same += facet_[next] == facet ? 1 : 0; });
     inner += 4 * same >= 3 * most ? 1 : 0;
   }
   return kInnerShare * inner < cells.size();

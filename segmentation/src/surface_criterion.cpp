@@ -13,9 +13,7 @@ namespace nurbs {
 SurfaceCriterion::SurfaceCriterion(const ViewChart& chart,
                                    const SurfaceGroupingOptions& options,
                                    double dispersion)
-    : chart_(chart),
-      options_(options),
-      dispersion_(dispersion)
+    : chart_(chart), options_(options), dispersion_(dispersion)
 {
 }
 
@@ -55,8 +53,7 @@ SurfaceCriterion::best(const ViewSums& sums, int most) const
   for (const int terms : chart_.termChoices()) {
     const double fixed = penalty(terms, samples);
     const bool first = best.surface.terms == 0;
-    if (!first &&
-        (terms > most || fixed >= best.cost || sums.count() < 2.0 * terms))
+    if (!first && (terms > most || fixed >= best.cost || sums.count() < 2.0 * terms))
       break; // even a perfect fit would not pay
     CostedModel model;
     model.surface = sums.fit(terms);

@@ -101,7 +101,7 @@ groupSurfaces(const GridPoints& points,
 {
   requireValid(points, graph, options);
   const std::vector<BlockSize> sizes = blockSizes(points.geometry);
-  ViewChart chart(points, noise, graph);
+  ViewChart chart(points, noise, graph, options.threads);
   const double scale = measureNoiseScale(points, chart, sizes.front());
   chart.scaleNoise(scale);
   const KeptEdges edges(points, graph, scaled(noise, scale), edgeOptions(options));

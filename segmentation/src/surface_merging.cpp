@@ -85,8 +85,7 @@ SurfaceMerging::joinLikeliest(std::uint32_t first)
       continue;
     const std::uint32_t into = link.a == next.node ? link.b : link.a;
     const Group& group = groups_[next.node];
-    if (!criterion_.fits(
-            group.sums, groups_[into].model.surface, group.model.misfit))
+    if (!criterion_.fits(group.sums, groups_[into].model.surface, group.model.misfit))
       continue;
     const std::vector<std::uint32_t> offers = group.links;
     unite(next.link);

@@ -82,8 +82,7 @@ private:
     bool
     operator<(const Candidate& other) const
     {
-      return priority != other.priority ? priority < other.priority
-                                        : link > other.link;
+      return priority != other.priority ? priority < other.priority : link > other.link;
     }
   };
 

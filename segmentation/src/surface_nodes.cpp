@@ -20,7 +20,8 @@ blockTerms(const ViewChart& chart)
 
 struct Blocks {
   Blocks(const GridGeometry& grid, BlockSize size)
-      : across(static_cast<std::size_t>((grid.width + size.columns - 1) / size.columns)),
+      : across(
+            static_cast<std::size_t>((grid.width + size.columns - 1) / size.columns)),
         down(static_cast<std::size_t>((grid.height + size.rows - 1) / size.rows))
   {
   }
@@ -199,8 +200,7 @@ std::vector<NodeLink>
 SurfaceNodes::links(std::uint32_t first, int threads) const
 {
   const GridGraph& graph = edges_.graph();
-  std::vector<LinkCollector> collected(
-      static_cast<std::size_t>(graph.numDirections()));
+  std::vector<LinkCollector> collected(static_cast<std::size_t>(graph.numDirections()));
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
   for (int d = 0; d < graph.numDirections(); ++d) {
     const bool side = d == GridGraph::kRight || d == GridGraph::kDown;

@@ -24,8 +24,8 @@ struct BlockSize {
 struct NodeLink {
   std::uint32_t a;
   std::uint32_t b;
-  float border;  /**< neighbouring cells in rows and columns */
-  float weight;  /**< sum of the edges' weights */
+  float border; /**< neighbouring cells in rows and columns */
+  float weight; /**< sum of the edges' weights */
 };
 
 /** Blocks of cells that are one smooth piece each, in order of their rate. */
@@ -33,7 +33,9 @@ class SurfaceNodes {
 public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  SurfaceNodes(const GridPoints& points, const KeptEdges& edges, const ViewChart& chart);
+  SurfaceNodes(const GridPoints& points,
+               const KeptEdges& edges,
+               const ViewChart& chart);
 
   /** Add every block of free cells of this size that has no cut inside and is smooth
    * within \a sigmas standard deviations. */

@@ -24,24 +24,37 @@ constexpr double kDepthShare = 1e-5;
 /** Share of the change of depth from cell to cell that directions err by. */
 constexpr double kSlopeShare = 0.1;
 
-/** Change of depth to the neighbour in either direction that is nearer in depth, in
- * rows or columns, whichever is more. */
+/** Mean change of depth to the neighbours on either side, but that on the smoother side
+ * where one is beyond an edge. */
+float
+slopeBetween(float before, float after)
+{
+  constexpr float kEdge = 4.0F;
+  const float least = std::min(before, after);
+  const float most = std::max(before, after);
+  return std::isfinite(most) && most < kEdge * least ? 0.5F * (least + most) : least;
+}
+
+/** Change of depth from cell to cell along rows or columns, whichever is more. */
 std::vector<float>
-slopesOf(const GridPoints& points, const GridGraph& graph)
+slopesOf(const GridPoints& points, const GridGraph& graph, int threads)
 {
   if (graph.numCells() != points.size())
     throw std::invalid_argument("ViewChart: the graph is not of these points");
   std::vector<float> slopes(points.size(), 0.0F);
   for (const int d : {GridGraph::kRight, GridGraph::kDown})
+#pragma omp parallel for num_threads(threads)
     for (std::size_t i = 0; i < slopes.size(); ++i) {
-      float least = std::numeric_limits<float>::infinity();
-      for (const std::int32_t next : {graph.target(d)[i], graph.source(d)[i]})
-        if (next != GridGraph::kNone)
-          least = std::min(
-              least,
-              std::abs(points.depth[static_cast<std::size_t>(next)] - points.depth[i]));
-      if (std::isfinite(least))
-        slopes[i] = std::max(slopes[i], least);
+      const auto change = [&](std::int32_t next) {
+        return next == GridGraph::kNone
+                   ? std::numeric_limits<float>::infinity()
+                   : std::abs(points.depth[static_cast<std::size_t>(next)] -
+                              points.depth[i]);
+      };
+      const float slope =
+          slopeBetween(change(graph.source(d)[i]), change(graph.target(d)[i]));
+      if (std::isfinite(slope))
+        slopes[i] = std::max(slopes[i], slope);
     }
   return slopes;
 }
@@ -69,14 +82,15 @@ boundsOf(const GridPoints& points, const Eigen::Matrix3d& frame)
 
 ViewChart::ViewChart(const GridPoints& points,
                      const SensorNoise& noise,
-                     const GridGraph& graph)
+                     const GridGraph& graph,
+                     int threads)
     : points_(points),
       noise_(noise),
       angular_(isInverseDepthGrid(points.geometry)),
       spherical_(points.geometry.projection == GridProjection::spherical),
       frame_(points.geometry.frame),
       choices_(spherical_ ? std::vector<int>{3, 9} : std::vector<int>{3, 6, 10}),
-      slope_(slopesOf(points, graph))
+      slope_(slopesOf(points, graph, threads))
 {
   const GridSpacing spacing(points.geometry, GridGraph::kRight);
   const bool lattice = points.geometry.projection == GridProjection::lattice;

@@ -13,7 +13,8 @@ namespace {
 constexpr auto kTerms = static_cast<std::size_t>(kMostViewTerms);
 
 /** Cholesky factor of the leading part of a normal matrix, in place; a pivot that
- * rounding has used up is replaced by a huge one, which leaves its unknown near zero. */
+ * rounding has used up is replaced by a huge one, which leaves its unknown near zero.
+ */
 void
 factorize(std::array<std::array<double, kTerms>, kTerms>& a, std::size_t n)
 {

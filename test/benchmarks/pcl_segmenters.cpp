@@ -78,7 +78,8 @@ multiPlane(double degrees, double distance)
     planes.setDistanceThreshold(distance);
     planes.setInputNormals(normals);
     planes.setInputCloud(cloud);
-    std::vector<PlanarRegion<PointXYZ>, Eigen::aligned_allocator<PlanarRegion<PointXYZ>>>
+    std::vector<PlanarRegion<PointXYZ>,
+                Eigen::aligned_allocator<PlanarRegion<PointXYZ>>>
         regions;
     std::vector<ModelCoefficients> coefficients;
     std::vector<PointIndices> inliers;
@@ -145,10 +146,8 @@ supervoxels(double voxel, double seed, double concavity)
       pcl::LCCPSegmentation<PointXYZRGBA> lccp;
       lccp.setConcavityToleranceThreshold(static_cast<float>(concavity));
       lccp.setSanityCheck(true);
-      lccp.setSmoothnessCheck(true,
-                              static_cast<float>(voxel),
-                              static_cast<float>(seed),
-                              0.1F);
+      lccp.setSmoothnessCheck(
+          true, static_cast<float>(voxel), static_cast<float>(seed), 0.1F);
       lccp.setInputSupervoxels(voxels, adjacency);
       lccp.setMinSegmentSize(3);
       lccp.segment();
@@ -187,22 +186,26 @@ euclidean(double tolerance)
 std::vector<Method>
 pclMethods()
 {
-  return {
-      {"OrganizedMultiPlane",
-       {multiPlane(2, 0.01), multiPlane(3, 0.02), multiPlane(6, 0.02), multiPlane(6, 0.05)}},
-      {"RegionGrowing",
-       {regionGrowing(30, 3, 0.05),
-        regionGrowing(50, 3, 1.0),
-        regionGrowing(100, 2, 1.0),
-        regionGrowing(100, 4, 1.0)}},
-      {"VCCS",
-       {supervoxels(0.006, 0.05, -1), supervoxels(0.01, 0.1, -1), supervoxels(0.02, 0.2, -1)}},
-      {"VCCS + LCCP",
-       {supervoxels(0.006, 0.02, 10),
-        supervoxels(0.006, 0.04, 10),
-        supervoxels(0.01, 0.06, 10),
-        supervoxels(0.02, 0.12, 10)}},
-      {"EuclideanClusters", {euclidean(0.006), euclidean(0.01), euclidean(0.02)}}};
+  return {{"OrganizedMultiPlane",
+           {multiPlane(2, 0.01),
+            multiPlane(3, 0.02),
+            multiPlane(6, 0.02),
+            multiPlane(6, 0.05)}},
+          {"RegionGrowing",
+           {regionGrowing(30, 3, 0.05),
+            regionGrowing(50, 3, 1.0),
+            regionGrowing(100, 2, 1.0),
+            regionGrowing(100, 4, 1.0)}},
+          {"VCCS",
+           {supervoxels(0.006, 0.05, -1),
+            supervoxels(0.01, 0.1, -1),
+            supervoxels(0.02, 0.2, -1)}},
+          {"VCCS + LCCP",
+           {supervoxels(0.006, 0.02, 10),
+            supervoxels(0.006, 0.04, 10),
+            supervoxels(0.01, 0.06, 10),
+            supervoxels(0.02, 0.12, 10)}},
+          {"EuclideanClusters", {euclidean(0.006), euclidean(0.01), euclidean(0.02)}}};
 }
 
 } // namespace bench

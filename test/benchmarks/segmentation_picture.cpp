@@ -105,12 +105,13 @@ draw(const std::string& input,
   std::vector<std::uint32_t> labels;
   SurfaceGroupingOptions options;
   options.threads = static_cast<int>(threads);
-  if (getenv("PPS")) options.points_per_sample = atof(getenv("PPS"));
+  if (getenv("PPS"))
+    options.points_per_sample = atof(getenv("PPS"));
   ConnectedGroupsOptions connected;
   connected.threads = static_cast<int>(threads);
-  const std::uint32_t count = surfaces
-                                  ? groupSurfaces(points, graph, noise, options, labels)
-                                  : connectedGroups(points, graph, noise, connected, labels);
+  const std::uint32_t count =
+      surfaces ? groupSurfaces(points, graph, noise, options, labels)
+               : connectedGroups(points, graph, noise, connected, labels);
   const double all_time = milliseconds(start);
   writePng(output, picture(scene.geometry, labels));
   std::printf("%s: %dx%d, %u segments, %zu hold 90 %%, unlabelled %.1f %%, graph %.1f "
@@ -121,12 +122,12 @@ draw(const std::string& input,
               count,
               segmentsForMost(labels, count),
               100.0 *
-                  static_cast<double>(
-                      std::count_if(labels.begin(),
-                                    labels.end(),
-                                    [&, cell = std::size_t{0}](std::uint32_t label) mutable {
-                                      return points.valid(cell++) && label == 0;
-                                    })) /
+                  static_cast<double>(std::count_if(
+                      labels.begin(),
+                      labels.end(),
+                      [&, cell = std::size_t{0}](std::uint32_t label) mutable {
+                        return points.valid(cell++) && label == 0;
+                      })) /
                   static_cast<double>(points.size()),
               graph_time,
               all_time - graph_time);

@@ -4,7 +4,7 @@
 //
 // Segmentations against labelled clouds; writes the tables of
 // doc/segmentation_quality.md:
-//   segmentation_quality DATA_FOLDER OUT.md [SCENES_PER_SET]
+//   segmentation_quality DATA_FOLDER OUT.md [METHOD]
 
 #include "pcl_segmenters.h"
 #include "segmentation_scores.h"
@@ -176,8 +176,7 @@ measure(const SceneSet& set, const Setting& setting)
   for (const Scene& scene : set.scenes) {
     const auto start = std::chrono::steady_clock::now();
     const Labels labels = setting.segment(scene.cloud);
-    const std::chrono::duration<double> time =
-        std::chrono::steady_clock::now() - start;
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     const Scores scores =
         compare(scene.cloud->width, scene.truth, labels, kTolerance, kLeast);
     row.regions.truth += scores.regions.truth;
@@ -213,28 +212,30 @@ std::string
 table(const SceneSet& set, const std::vector<Method>& methods)
 {
   std::ostringstream out;
-  out << "## " << set.name << "\n\n" << set.about << ".\n\n"
+  out << "## " << set.name << "\n\n"
+      << set.about << ".\n\n"
       << "| method | correct | over | under | missed | noise | boundary recall | "
          "under-segmentation | ASA | ms | parameters |\n"
       << "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const Method& method : methods) {
     const Row row = best(set, method);
     char line[512];
-    std::snprintf(line,
-                  sizeof(line),
-                  "| %s | %d of %d | %d | %d | %d | %d | %.3f | %.4f | %.4f | %.0f | %s |\n",
-                  method.name.c_str(),
-                  row.regions.correct,
-                  row.regions.truth,
-                  row.regions.over,
-                  row.regions.under,
-                  row.regions.missed,
-                  row.regions.noise,
-                  row.boundary_recall,
-                  row.undersegmentation,
-                  row.accuracy,
-                  row.milliseconds,
-                  row.parameters.c_str());
+    std::snprintf(
+        line,
+        sizeof(line),
+        "| %s | %d of %d | %d | %d | %d | %d | %.3f | %.4f | %.4f | %.0f | %s |\n",
+        method.name.c_str(),
+        row.regions.correct,
+        row.regions.truth,
+        row.regions.over,
+        row.regions.under,
+        row.regions.missed,
+        row.regions.noise,
+        row.boundary_recall,
+        row.undersegmentation,
+        row.accuracy,
+        row.milliseconds,
+        row.parameters.c_str());
     out << line;
     std::cerr << line;
   }
@@ -247,18 +248,22 @@ int
 main(int argc, char** argv)
 {
   if (argc < 3) {
-    std::cerr << "usage: " << argv[0] << " DATA_FOLDER OUT.md [SCENES_PER_SET]\n";
+    std::cerr << "usage: " << argv[0] << " DATA_FOLDER OUT.md [METHOD]\n";
     return 1;
   }
   try {
-    const std::size_t most =
-        argc > 3 ? static_cast<std::size_t>(std::stoul(argv[3])) : 1000;
-    const std::vector<Method> methods = allMethods();
+    std::vector<Method> methods = allMethods();
+    if (argc > 3)
+      methods.erase(std::remove_if(methods.begin(),
+                                   methods.end(),
+                                   [&](const Method& method) {
+                                     return method.name.find(argv[3]) ==
+                                            std::string::npos;
+                                   }),
+                    methods.end());
     std::string text;
-    for (SceneSet set : {simulate(), readSynpeb(argv[1]), readOsd(argv[1])}) {
-      set.scenes.resize(std::min(set.scenes.size(), most));
+    for (const SceneSet& set : {simulate(), readSynpeb(argv[1]), readOsd(argv[1])})
       text += table(set, methods);
-    }
     std::ofstream(argv[2]) << text;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

@@ -104,13 +104,12 @@ countRegions(const Overlaps& overlaps, double tolerance)
   }
   const std::set<std::uint32_t> correct_true = used_true;
   const std::set<std::uint32_t> correct_found = used_found;
-  counts.over =
-      madeUp(overlaps, true, tolerance, correct_true, used_true, used_found);
+  counts.over = madeUp(overlaps, true, tolerance, correct_true, used_true, used_found);
   counts.under =
       madeUp(overlaps, false, tolerance, correct_found, used_found, used_true);
   counts.missed = counts.truth - static_cast<int>(used_true.size());
-  counts.noise =
-      static_cast<int>(overlaps.found_size.size()) - static_cast<int>(used_found.size());
+  counts.noise = static_cast<int>(overlaps.found_size.size()) -
+                 static_cast<int>(used_found.size());
   return counts;
 }
 

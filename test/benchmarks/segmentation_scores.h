@@ -27,7 +27,7 @@ struct RegionCounts {
 /** How well labels agree with the truth; shares of 0 to 1. */
 struct Scores {
   RegionCounts regions;
-  double boundary_recall = 0.0; /**< true border cells with a found border near by */
+  double boundary_recall = 0.0;   /**< true border cells with a found border near by */
   double undersegmentation = 0.0; /**< cells of found regions on the smaller side of a
                                      true border, and cells without a label */
   double accuracy = 0.0; /**< achievable: each found region labelled with the true one

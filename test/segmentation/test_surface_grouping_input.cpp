@@ -62,8 +62,8 @@ labelsOf(int width, int height, const Depth& depth)
 std::size_t
 labelled(const Labels& labels)
 {
-  return labels.size() - static_cast<std::size_t>(
-                             std::count(labels.begin(), labels.end(), 0U));
+  return labels.size() -
+         static_cast<std::size_t>(std::count(labels.begin(), labels.end(), 0U));
 }
 
 TEST(SurfaceGroupingInput, noPointsGiveNoGroups)
@@ -194,9 +194,8 @@ TEST(SurfaceGroupingInput, anotherCloudsGraphIsRefused)
   const GridPoints points =
       toGridPoints(cameraCloud(grid, [](int, int) { return 1.0; }), grid);
   Labels labels;
-  EXPECT_THROW(
-      groupSurfaces(points, GridGraph(), SensorNoise::kinect(), {}, labels),
-      std::invalid_argument);
+  EXPECT_THROW(groupSurfaces(points, GridGraph(), SensorNoise::kinect(), {}, labels),
+               std::invalid_argument);
 }
 
 } // namespace

@@ -29,13 +29,21 @@ constexpr BlockSize kBlock{8, 8};
 struct Scene {
   explicit Scene(unsigned seed, int correlated = 1)
       : points(toGridPoints(cloudOf(seed, correlated), kCamera)),
-        chart(points, SensorNoise::kinect())
+        graph(graphOf(points)),
+        chart(points, SensorNoise::kinect(), graph)
   {
-    graph.build(points, SensorNoise::kinect());
-    graph.setWeights();
     edges.emplace(points, graph, SensorNoise::kinect(), ConnectedGroupsOptions());
     nodes.emplace(points, *edges, chart);
     nodes->addBlocks(kBlock, 2.0, 1);
+  }
+
+  static GridGraph
+  graphOf(const GridPoints& points)
+  {
+    GridGraph graph;
+    graph.build(points, SensorNoise::kinect());
+    graph.setWeights();
+    return graph;
   }
 
   static PointCloud<PointXYZ>
@@ -55,8 +63,8 @@ struct Scene {
   }
 
   GridPoints points;
-  ViewChart chart;
   GridGraph graph;
+  ViewChart chart;
   std::optional<KeptEdges> edges;
   std::optional<SurfaceNodes> nodes;
 };

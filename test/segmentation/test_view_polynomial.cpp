@@ -44,15 +44,15 @@ cameraPoints(double noise)
 {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  return toGridPoints(
-      cameraCloud(kCamera,
-                  [&](int column, int row) {
-                    const Eigen::Vector3d e(kCamera.first_u + column * kCamera.step_u,
-                                            kCamera.first_v + row * kCamera.step_v,
-                                            1.0);
-                    return kPlane.along(e) + noise * normal(random);
-                  }),
-      kCamera);
+  return toGridPoints(cameraCloud(kCamera,
+                                  [&](int column, int row) {
+                                    const Eigen::Vector3d e(
+                                        kCamera.first_u + column * kCamera.step_u,
+                                        kCamera.first_v + row * kCamera.step_v,
+                                        1.0);
+                                    return kPlane.along(e) + noise * normal(random);
+                                  }),
+                      kCamera);
 }
 
 GridGeometry
@@ -76,6 +76,14 @@ laserPoints()
                       grid);
 }
 
+ViewChart
+chartOf(const GridPoints& points)
+{
+  GridGraph graph;
+  graph.build(points, kNoise);
+  return {points, kNoise, graph};
+}
+
 ViewSums
 sumsOf(const ViewChart& chart, std::size_t first, std::size_t last)
 {
@@ -88,7 +96,7 @@ sumsOf(const ViewChart& chart, std::size_t first, std::size_t last)
 void
 expectExactPlane(const GridPoints& points, const Eigen::Vector3d& normal)
 {
-  const ViewChart chart(points, kNoise);
+  const ViewChart chart = chartOf(points);
   const ViewSums sums = sumsOf(chart, 0, points.size());
   for (const int terms : chart.termChoices()) {
     const ViewPolynomial plane = sums.fit(terms);
@@ -115,7 +123,7 @@ TEST(ViewPolynomial, planesAreExactForALaser)
 TEST(ViewPolynomial, sumsOfPartsAreThoseOfTheWhole)
 {
   const GridPoints points = cameraPoints(0.003);
-  const ViewChart chart(points, kNoise);
+  const ViewChart chart = chartOf(points);
   const ViewSums whole = sumsOf(chart, 0, points.size());
   ViewSums parts;
   for (std::size_t first = 0; first < points.size(); first += 512)
@@ -133,7 +141,7 @@ TEST(ViewPolynomial, sumsOfPartsAreThoseOfTheWhole)
 TEST(ViewPolynomial, fitsAreThoseOfADenseSolver)
 {
   const GridPoints points = cameraPoints(0.003);
-  const ViewChart chart(points, kNoise);
+  const ViewChart chart = chartOf(points);
   const ViewSums sums = sumsOf(chart, 0, points.size());
   for (const int terms : chart.termChoices()) {
     Eigen::MatrixXd rows(points.size(), terms);
@@ -151,15 +159,14 @@ TEST(ViewPolynomial, fitsAreThoseOfADenseSolver)
     const ViewPolynomial fit = sums.fit(terms);
     EXPECT_NEAR(sums.misfit(fit) / misfit, 1.0, 1e-6);
     for (int term = 0; term < terms; ++term)
-      EXPECT_NEAR(
-          fit.coefficients[static_cast<std::size_t>(term)], best(term), 1e-6);
+      EXPECT_NEAR(fit.coefficients[static_cast<std::size_t>(term)], best(term), 1e-6);
   }
 }
 
 TEST(ViewPolynomial, tooFewPointsGiveFiniteFits)
 {
   const GridPoints points = cameraPoints(0.003);
-  const ViewChart chart(points, kNoise);
+  const ViewChart chart = chartOf(points);
   EXPECT_EQ(ViewSums().fit(10).coefficients, ViewPolynomial().coefficients);
   EXPECT_EQ(ViewSums().misfit(ViewSums().fit(3)), 0.0);
   for (std::size_t count = 1; count < 5; ++count) {
@@ -174,9 +181,30 @@ TEST(ViewPolynomial, tooFewPointsGiveFiniteFits)
 TEST(ViewPolynomial, noiseScaleMultipliesTheNoise)
 {
   const GridPoints points = cameraPoints(0.0);
-  EXPECT_DOUBLE_EQ(ViewChart(points, kNoise, 3.0).sigma(1.5),
-                   3.0 * ViewChart(points, kNoise).sigma(1.5));
-  EXPECT_THROW(ViewChart(points, kNoise, 0.0), std::invalid_argument);
+  ViewChart chart = chartOf(points);
+  const double before = chart.sigma(7);
+  chart.scaleNoise(3.0);
+  EXPECT_DOUBLE_EQ(chart.sigma(7), 3.0 * before);
+  EXPECT_THROW(chart.scaleNoise(0.0), std::invalid_argument);
+  EXPECT_THROW(ViewChart(points, kNoise, GridGraph()), std::invalid_argument);
+}
+
+TEST(ViewPolynomial, grazingSurfacesAreNoisier)
+{
+  const auto depths = [](double slope) {
+    return toGridPoints(
+        cameraCloud(kCamera,
+                    [slope](int column, int) { return 1.0 + slope * (column - 48); }),
+        kCamera);
+  };
+  const GridPoints facing = depths(0.0);
+  const GridPoints grazing = depths(0.015);
+  const std::size_t middle = 20 * 96 + 48;
+  const double sensor = kNoise.sigma(1.0);
+  EXPECT_NEAR(chartOf(facing).sigma(middle), sensor, 0.1 * sensor);
+  EXPECT_NEAR(chartOf(grazing).sigma(middle),
+              std::hypot(chartOf(facing).sigma(middle), 0.1 * 0.015),
+              0.02 * sensor);
 }
 
 } // namespace

@@ -65,10 +65,10 @@ struct SurfaceGroup {
     std::size_t border; /**< pairs of neighbouring cells */
   };
 
-  std::size_t size = 0;                   /**< points */
-  std::vector<ViewPolynomial> models;     /**< of its parts, the largest first */
-  double rms = 0.0;                       /**< residual in units of the noise */
-  std::vector<Neighbour> neighbours;      /**< by increasing label */
+  std::size_t size = 0;               /**< points */
+  std::vector<ViewPolynomial> models; /**< of its parts, the largest first */
+  double rms = 0.0;                   /**< residual in units of the noise */
+  std::vector<Neighbour> neighbours;  /**< by increasing label */
 };
 
 /** \brief Group the points of a grid into surfaces: Algorithm 1 of Norouzzadeh Ravari

@@ -63,8 +63,12 @@ public:
    * from a point to the next: directions err as well, which tells on surfaces at
    * grazing angle; and at least a small share of the point spacing, for what lies
    * between samples is unknown anyway. O(cells).
+   * \param[in] threads number of threads; the result does not depend on it
    * \throws std::invalid_argument when the graph belongs to other points */
-  ViewChart(const GridPoints& points, const SensorNoise& noise, const GridGraph& graph);
+  ViewChart(const GridPoints& points,
+            const SensorNoise& noise,
+            const GridGraph& graph,
+            int threads = 1);
 
   /** \brief Multiply the noise.
    * \throws std::invalid_argument unless the factor is positive */
@@ -105,7 +109,7 @@ private:
   bool angular_;
   bool spherical_;
   Eigen::Matrix3d frame_;
-  double spacing_;          // of neighbours, constant part
+  double spacing_; // of neighbours, constant part
   double spacing_per_depth_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(); // of a height field
   double scale_ = 1.0;
@@ -151,7 +155,8 @@ public:
   }
 
 private:
-  // Lower triangle of the normal matrix by rows, then right side, values, weight, count.
+  // Lower triangle of the normal matrix by rows, then right side, values, weight,
+  // count.
   static constexpr std::size_t kTriangle = kMostViewTerms * (kMostViewTerms + 1) / 2;
   static constexpr std::size_t kRight = kTriangle;
   static constexpr std::size_t kSquares = kRight + kMostViewTerms;
