@@ -89,6 +89,27 @@ facetsOf(SurfaceMerging& merging, std::uint32_t nodes)
   return facets;
 }
 
+/** Merges nodes of the coarsest rate, which are there, then rate by rate those of the
+ * finer ones. */
+SurfaceFacets
+facetsOf(const SurfaceCriterion& criterion,
+         const SurfaceGroupingOptions& options,
+         const std::vector<BlockSize>& sizes,
+         SurfaceNodes& nodes)
+{
+  SurfaceMerging merging(criterion);
+  merging.add(nodes, nodes.links(0, options.threads));
+  merging.mergeWhileBetter();
+  for (std::size_t rate = 1; rate < sizes.size(); ++rate) {
+    const std::uint32_t first = nodes.count();
+    nodes.addBlocks(sizes[rate], options.fit_sigmas, options.threads);
+    merging.add(nodes, nodes.links(first, options.threads));
+    merging.joinLikeliest(first);
+    merging.mergeWhileBetter();
+  }
+  return facetsOf(merging, nodes.count());
+}
+
 } // namespace
 
 std::uint32_t
@@ -112,23 +133,13 @@ groupSurfaces(const GridPoints& points,
           ? options.points_per_sample
           : noiseDispersion(points.geometry, nodes, chart, sizes.front());
   const SurfaceCriterion criterion(chart, options, dispersion);
-  SurfaceMerging merging(criterion);
-  merging.add(nodes, nodes.links(0, options.threads));
-  merging.mergeWhileBetter();
-  for (std::size_t rate = 1; rate < sizes.size(); ++rate) {
-    const std::uint32_t first = nodes.count();
-    nodes.addBlocks(sizes[rate], options.fit_sigmas, options.threads);
-    merging.add(nodes, nodes.links(first, options.threads));
-    merging.joinLikeliest(first);
-    merging.mergeWhileBetter();
-  }
-  const SurfaceFacets facets = facetsOf(merging, nodes.count());
+  const SurfaceFacets facets = facetsOf(criterion, options, sizes, nodes);
   const JoiningInput input{points, chart, nodes, facets, criterion, options};
-  DisjointSets surfaces(facets.count());
   CellFacets cells(input, edges);
   cells.grow(options.point_sigmas);
   dropRedundantFacets(input, edges, cells);
   cells.refine();
+  DisjointSets surfaces(facets.count());
   if (options.join_smooth)
     joinSmooth(input, edges, cells.labels(), sizes.front(), surfaces);
   if (options.join_separated)

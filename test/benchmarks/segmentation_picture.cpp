@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <string>
 
@@ -86,6 +85,16 @@ segmentsForMost(const std::vector<std::uint32_t>& labels, std::uint32_t count)
   return segments;
 }
 
+/** Share of the cells that hold a point but no label. */
+double
+shareUnlabelled(const GridPoints& points, const std::vector<std::uint32_t>& labels)
+{
+  std::size_t count = 0;
+  for (std::size_t cell = 0; cell < labels.size(); ++cell)
+    count += points.valid(cell) && labels[cell] == 0 ? 1 : 0;
+  return static_cast<double>(count) / static_cast<double>(labels.size());
+}
+
 int
 draw(const std::string& input,
      const std::string& output,
@@ -105,14 +114,12 @@ draw(const std::string& input,
   std::vector<std::uint32_t> labels;
   SurfaceGroupingOptions options;
   options.threads = static_cast<int>(threads);
-  if (getenv("PPS"))
-    options.points_per_sample = atof(getenv("PPS"));
   ConnectedGroupsOptions connected;
   connected.threads = static_cast<int>(threads);
   const std::uint32_t count =
       surfaces ? groupSurfaces(points, graph, noise, options, labels)
                : connectedGroups(points, graph, noise, connected, labels);
-  const double all_time = milliseconds(start);
+  const double grouping_time = milliseconds(start) - graph_time;
   writePng(output, picture(scene.geometry, labels));
   std::printf("%s: %dx%d, %u segments, %zu hold 90 %%, unlabelled %.1f %%, graph %.1f "
               "ms, grouping %.1f ms\n",
@@ -121,16 +128,9 @@ draw(const std::string& input,
               scene.geometry.height,
               count,
               segmentsForMost(labels, count),
-              100.0 *
-                  static_cast<double>(std::count_if(
-                      labels.begin(),
-                      labels.end(),
-                      [&, cell = std::size_t{0}](std::uint32_t label) mutable {
-                        return points.valid(cell++) && label == 0;
-                      })) /
-                  static_cast<double>(points.size()),
+              100.0 * shareUnlabelled(points, labels),
               graph_time,
-              all_time - graph_time);
+              grouping_time);
   return 0;
 }
 
