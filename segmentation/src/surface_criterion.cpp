@@ -48,20 +48,24 @@ SurfaceCriterion::best(const ViewSums& sums, int most) const
 {
   const double samples = sums.count() / dispersion_;
   const double weight = 0.5 / dispersion_;
+  ViewFit fit(sums);
+  int chosen = 0;
   CostedModel best;
   best.cost = std::numeric_limits<double>::infinity();
   for (const int terms : chart_.termChoices()) {
     const double fixed = penalty(terms, samples);
-    const bool first = best.surface.terms == 0;
-    if (!first && (terms > most || fixed >= best.cost || sums.count() < 2.0 * terms))
+    if (chosen != 0 &&
+        (terms > most || fixed >= best.cost || sums.count() < 2.0 * terms))
       break; // even a perfect fit would not pay
-    CostedModel model;
-    model.surface = sums.fit(terms);
-    model.misfit = sums.misfit(model.surface);
-    model.cost = fixed + weight * model.misfit;
-    if (model.cost < best.cost)
-      best = model;
+    const double misfit = fit.misfit(terms);
+    const double cost = fixed + weight * misfit;
+    if (chosen == 0 || cost < best.cost) {
+      chosen = terms;
+      best.misfit = misfit;
+      best.cost = cost;
+    }
   }
+  best.surface = fit.solve(chosen);
   return best;
 }
 

@@ -12,30 +12,61 @@ namespace {
 
 constexpr auto kTerms = static_cast<std::size_t>(kMostViewTerms);
 
-/** Cholesky factor of the leading part of a normal matrix, in place; a pivot that
- * rounding has used up is replaced by a huge one, which leaves its unknown near zero.
- */
-void
-factorize(std::array<std::array<double, kTerms>, kTerms>& a, std::size_t n)
+/** A pivot smaller than this share of its diagonal is rounding; its unknown is 0. */
+constexpr double kRank = 1e-12;
+
+} // namespace
+
+ViewFit::ViewFit(const ViewSums& sums) : sums_(sums)
 {
-  constexpr double kRank = 1e-12;
-  for (std::size_t j = 0; j < n; ++j) {
-    const double diagonal = a[j][j];
-    double pivot = diagonal;
-    for (std::size_t k = 0; k < j; ++k)
-      pivot -= a[j][k] * a[j][k];
-    const bool used_up = !(pivot > kRank * diagonal);
-    a[j][j] = used_up ? 0.0 : std::sqrt(pivot);
-    for (std::size_t i = j + 1; i < n; ++i) {
-      double sum = a[i][j];
+  misfit_[0] = sums.squares();
+}
+
+void
+ViewFit::extend(std::size_t terms)
+{
+  for (; done_ < terms; ++done_) {
+    std::array<double, kTerms>& row = factor_[done_];
+    double pivot = sums_.normal(done_, done_);
+    double right = sums_.right(done_);
+    for (std::size_t j = 0; j < done_; ++j) {
+      double sum = sums_.normal(done_, j);
       for (std::size_t k = 0; k < j; ++k)
-        sum -= a[i][k] * a[j][k];
-      a[i][j] = used_up ? 0.0 : sum / a[j][j];
+        sum -= row[k] * factor_[j][k];
+      row[j] = sum * inverse_[j];
+      pivot -= row[j] * row[j];
+      right -= row[j] * reduced_[j];
     }
+    const bool used_up = !(pivot > kRank * sums_.normal(done_, done_));
+    inverse_[done_] = used_up ? 0.0 : 1.0 / std::sqrt(pivot);
+    reduced_[done_] = right * inverse_[done_];
+    misfit_[done_ + 1] = misfit_[done_] - reduced_[done_] * reduced_[done_];
   }
 }
 
-} // namespace
+double
+ViewFit::misfit(int terms)
+{
+  extend(static_cast<std::size_t>(terms));
+  return std::max(0.0, misfit_[static_cast<std::size_t>(terms)]);
+}
+
+ViewPolynomial
+ViewFit::solve(int terms)
+{
+  const auto n = static_cast<std::size_t>(terms);
+  extend(n);
+  ViewPolynomial result;
+  result.terms = terms;
+  std::array<double, kTerms>& x = result.coefficients;
+  for (std::size_t i = n; i-- > 0;) {
+    double sum = reduced_[i];
+    for (std::size_t k = i + 1; k < n; ++k)
+      sum -= factor_[k][i] * x[k];
+    x[i] = sum * inverse_[i];
+  }
+  return result;
+}
 
 void
 ViewSums::add(const ViewSample& sample)
@@ -66,29 +97,7 @@ ViewSums::operator+=(const ViewSums& other)
 ViewPolynomial
 ViewSums::fit(int terms) const
 {
-  const auto n = static_cast<std::size_t>(terms);
-  std::array<std::array<double, kTerms>, kTerms> factor;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j <= i; ++j)
-      factor[i][j] = sums_[at++];
-  factorize(factor, n);
-  ViewPolynomial result;
-  result.terms = terms;
-  std::array<double, kTerms>& x = result.coefficients;
-  for (std::size_t i = 0; i < n; ++i) {
-    double sum = sums_[kRight + i];
-    for (std::size_t k = 0; k < i; ++k)
-      sum -= factor[i][k] * x[k];
-    x[i] = factor[i][i] > 0.0 ? sum / factor[i][i] : 0.0;
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    double sum = x[i];
-    for (std::size_t k = i + 1; k < n; ++k)
-      sum -= factor[k][i] * x[k];
-    x[i] = factor[i][i] > 0.0 ? sum / factor[i][i] : 0.0;
-  }
-  return result;
+  return ViewFit(*this).solve(terms);
 }
 
 double

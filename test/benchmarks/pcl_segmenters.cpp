@@ -15,6 +15,7 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace pcl {
 namespace nurbs {
@@ -26,6 +27,14 @@ using ColorCloud = pcl::PointCloud<pcl::PointXYZRGBA>;
 
 constexpr int kLeast = 100; // points of a segment
 constexpr double kDegree = M_PI / 180.0;
+
+std::string
+text(double number)
+{
+  std::ostringstream out;
+  out << number;
+  return out.str();
+}
 
 Labels
 labelsOf(const std::vector<PointIndices>& clusters, std::size_t points)
@@ -90,7 +99,7 @@ multiPlane(double degrees, double distance)
         regions, coefficients, inliers, labels, label_indices, boundaries);
     return labelsOf(inliers, cloud->size());
   };
-  return {std::to_string(degrees) + " deg " + std::to_string(distance) + " m", segment};
+  return {text(degrees) + " deg " + text(distance) + " m", segment};
 }
 
 Setting
@@ -118,8 +127,7 @@ regionGrowing(int neighbours, double degrees, double curvature)
     growing.extract(clusters);
     return compact.spread(labelsOf(clusters, compact.points->size()), cloud->size());
   };
-  return {std::to_string(neighbours) + " neighbours " + std::to_string(degrees) +
-              " deg " + std::to_string(curvature),
+  return {text(neighbours) + " neighbours " + text(degrees) + " deg " + text(curvature),
           segment};
 }
 
@@ -158,8 +166,7 @@ supervoxels(double voxel, double seed, double concavity)
       labels.push_back(point.label);
     return compact.spread(labels, cloud->size());
   };
-  return {"voxel " + std::to_string(voxel) + " seed " + std::to_string(seed) + " m",
-          segment};
+  return {"voxel " + text(voxel) + " seed " + text(seed) + " m", segment};
 }
 
 Setting
@@ -178,7 +185,7 @@ euclidean(double tolerance)
     extraction.extract(clusters);
     return compact.spread(labelsOf(clusters, compact.points->size()), cloud->size());
   };
-  return {std::to_string(tolerance) + " m", segment};
+  return {text(tolerance) + " m", segment};
 }
 
 } // namespace

@@ -148,6 +148,27 @@ public:
   Eigen::Vector3d
   meanDirection() const;
 
+  /** \brief Element of the normal matrix; column <= row. */
+  double
+  normal(std::size_t row, std::size_t column) const
+  {
+    return sums_[row * (row + 1) / 2 + column];
+  }
+
+  /** \brief Element of the right side. */
+  double
+  right(std::size_t row) const
+  {
+    return sums_[kRight + row];
+  }
+
+  /** \brief Sum of squares of the values in units of the noise. */
+  double
+  squares() const
+  {
+    return sums_[kSquares];
+  }
+
   bool
   operator==(const ViewSums& other) const
   {
@@ -165,6 +186,36 @@ private:
   static constexpr std::size_t kCount = kWeight + 1;
 
   std::array<double, kCount + 1> sums_{};
+};
+
+/** \brief Fits of one set of points with different numbers of terms: what the smaller
+ * ones cost is not spent again. Refers to the sums. \ingroup segmentation
+ */
+class PCL_NURBS_SEGMENTATION_EXPORT ViewFit {
+public:
+  explicit ViewFit(const ViewSums& sums);
+
+  /** \brief Sum of squared residuals of the best polynomial. O(terms^3) at first. */
+  double
+  misfit(int terms);
+
+  /** \brief The best polynomial. O(terms^2) after misfit(). */
+  ViewPolynomial
+  solve(int terms);
+
+private:
+  using Row = std::array<double, kMostViewTerms>;
+
+  /** Extend the Cholesky factor of the normal matrix. */
+  void
+  extend(std::size_t terms);
+
+  const ViewSums& sums_;
+  std::size_t done_ = 0;
+  std::array<Row, kMostViewTerms> factor_; // below the diagonal
+  Row inverse_;                            // of the diagonal
+  Row reduced_;                            // right side
+  std::array<double, kMostViewTerms + 1> misfit_;
 };
 
 } // namespace nurbs
