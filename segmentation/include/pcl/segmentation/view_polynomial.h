@@ -169,12 +169,6 @@ public:
     return sums_[kSquares];
   }
 
-  bool
-  operator==(const ViewSums& other) const
-  {
-    return sums_ == other.sums_;
-  }
-
 private:
   // Lower triangle of the normal matrix by rows, then right side, values, weight,
   // count.
