@@ -11,6 +11,7 @@
 #include <pcl/mapping/demo_scene.h>
 #include <pcl/mapping/reconstruction_statistics.h>
 #include <pcl/mapping/stop_watch.h>
+#include <pcl/segmentation/entropy_rate_segmentation.h>
 
 #include <pcl/common/point_tests.h>
 
@@ -103,8 +104,11 @@ private:
     options.stop = interrupted;
     if (settings_.noise)
       reconstructor_.setSensorNoise(*settings_.noise);
-    const pcl::ConnectedGroupsSegmentation<pcl::PointXYZ>::Ptr segmentation(
-        new pcl::ConnectedGroupsSegmentation<pcl::PointXYZ>);
+    Reconstructor::Segmentation::Ptr segmentation;
+    if (settings_.segmentation == SegmentationChoice::Surfaces)
+      segmentation.reset(new pcl::EntropyRateSegmentation<pcl::PointXYZ>);
+    else
+      segmentation.reset(new pcl::ConnectedGroupsSegmentation<pcl::PointXYZ>);
     segmentation->setMinSegmentSize(static_cast<std::size_t>(settings_.min_segment));
     reconstructor_.setSegmentation(segmentation);
     reconstructor_.setProjection(settings_.projection);

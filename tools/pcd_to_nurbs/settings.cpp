@@ -24,6 +24,7 @@ struct RawOptions {
   std::string intrinsics;
   std::string projection;
   std::string sensor;
+  std::string segmentation;
   std::string criterion;
   std::string obj;
   std::string size;
@@ -61,12 +62,16 @@ addFitOptions(Settings& settings, RawOptions& raw, po::options_description& desc
 {
   pcl::nurbs::ReconstructionOptions& fit = settings.reconstruction;
   description.add_options()(
+      "segmentation",
+      po::value(&raw.segmentation)->default_value("surfaces"),
+      "what is fitted: surfaces (found by their description length) or groups "
+      "(connected points between folds and jumps)")(
       "tolerance",
       po::value(&fit.tolerance)->default_value(0.0, "0"),
       "a point belongs to a surface within this distance, metres; 0: three standard "
       "deviations of its noise")("min-segment",
                                  po::value(&settings.min_segment)->default_value(100),
-                                 "smaller connected groups are dropped, points")(
+                                 "smaller segments are dropped, points")(
       "min-patch",
       po::value(&fit.min_patch_points)->default_value(fit.min_patch_points),
       "smaller patches are dropped, points")(
@@ -183,6 +188,11 @@ interpret(const RawOptions& raw, Settings& settings)
                                      {"spherical", Organizer::SPHERICAL},
                                      {"perspective", Organizer::PERSPECTIVE},
                                      {"plane", Organizer::PLANE}});
+  settings.segmentation =
+      choose<SegmentationChoice>("segmentation",
+                                 raw.segmentation,
+                                 {{"surfaces", SegmentationChoice::Surfaces},
+                                  {"groups", SegmentationChoice::Groups}});
   settings.reconstruction.knots.criterion =
       choose<ModelCriterion>("criterion",
                              raw.criterion,
@@ -202,6 +212,7 @@ interpret(const RawOptions& raw, Settings& settings)
   settings.words = {{"intrinsics", raw.intrinsics},
                     {"projection", raw.projection},
                     {"sensor", raw.sensor},
+                    {"segmentation", raw.segmentation},
                     {"criterion", raw.criterion},
                     {"obj", raw.obj},
                     {"size", raw.size}};

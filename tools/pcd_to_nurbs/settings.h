@@ -19,6 +19,12 @@
 
 namespace pcl_nurbs_tools {
 
+/** How a cloud is taken apart before surfaces are fitted. */
+enum class SegmentationChoice {
+  Surfaces, /**< pcl::EntropyRateSegmentation */
+  Groups    /**< pcl::ConnectedGroupsSegmentation */
+};
+
 /** What the command line of pcd_to_nurbs asks for, checked. */
 struct Settings {
   CommonOptions common;
@@ -30,6 +36,7 @@ struct Settings {
   pcl::CloudOrganizer<pcl::PointXYZ>::Projection projection =
       pcl::CloudOrganizer<pcl::PointXYZ>::AUTO;
   std::optional<pcl::SensorNoise> noise;
+  SegmentationChoice segmentation = SegmentationChoice::Surfaces;
   int min_segment = 100;
   pcl::nurbs::ReconstructionOptions reconstruction;
   SurfaceOutputOptions output;

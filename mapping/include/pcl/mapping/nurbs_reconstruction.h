@@ -5,7 +5,7 @@
 
 #include <pcl/mapping/surface_reconstruction.h>
 #include <pcl/segmentation/cloud_organizer.h>
-#include <pcl/segmentation/grid_segmentation.h>
+#include <pcl/segmentation/entropy_rate_segmentation.h>
 
 #include <pcl/pcl_base.h>
 #include <pcl/point_cloud.h>
@@ -72,7 +72,7 @@ public:
     noise_ = noise;
   }
 
-  /** \brief Segmentation to use; ConnectedGroupsSegmentation if none is given. */
+  /** \brief Segmentation to use; EntropyRateSegmentation if none is given. */
   void
   setSegmentation(const typename Segmentation::Ptr& segmentation)
   {

@@ -7,6 +7,7 @@
 #include <pcl/segmentation/point_weights.h>
 #include <pcl/segmentation/segment_borders.h>
 #include <pcl/segmentation/superpixels.h>
+#include <pcl/segmentation/surface_grouping.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -62,6 +63,28 @@ public:
   getMode() const
   {
     return mode_;
+  }
+
+  /** \brief How surfaces are grouped. Its min_weight, min_size and threads are not
+   * used: setMinWeight(), setMinSegmentSize() and setNumberOfThreads() tell them. */
+  void
+  setSurfaceOptions(const nurbs::SurfaceGroupingOptions& options)
+  {
+    surfaces_ = options;
+  }
+
+  const nurbs::SurfaceGroupingOptions&
+  getSurfaceOptions() const
+  {
+    return surfaces_;
+  }
+
+  /** \brief Models of the segments of the last segment() call in mode SURFACES, that of
+   * label k at k - 1; none after another mode. */
+  const std::vector<nurbs::SurfaceGroup>&
+  getSurfaceGroups() const
+  {
+    return groups_;
   }
 
   /** \brief Number K of superpixels (default 1000). Connected parts of the graph of
@@ -154,13 +177,15 @@ private:
   groupPoints(const nurbs::GridPoints& points,
               const nurbs::GridGraph& graph,
               const SensorNoise& noise,
-              std::vector<std::uint32_t>& labels) const;
+              std::vector<std::uint32_t>& labels);
 
   Mode mode_ = SURFACES;
+  nurbs::SurfaceGroupingOptions surfaces_;
   nurbs::SuperpixelOptions superpixels_;
   float min_weight_ = 1e-4F;
   std::function<void(nurbs::GridGraph&, const PointCloud&)> set_weights_;
   std::vector<nurbs::SegmentBorder> borders_;
+  std::vector<nurbs::SurfaceGroup> groups_;
 };
 
 template <typename PointT>

@@ -6,7 +6,7 @@
 #include <pcl/mapping/nurbs_reconstruction.h>
 #include <pcl/mapping/stop_watch.h>
 #include <pcl/segmentation/impl/cloud_organizer.hpp>
-#include <pcl/segmentation/impl/grid_segmentation.hpp>
+#include <pcl/segmentation/impl/entropy_rate_segmentation.hpp>
 
 #include <pcl/console/print.h>
 
@@ -76,7 +76,7 @@ NurbsReconstruction<PointT>::segment()
   nurbs::StopWatch watch;
   typename Segmentation::Ptr segmentation = segmentation_;
   if (!segmentation)
-    segmentation.reset(new ConnectedGroupsSegmentation<PointT>);
+    segmentation.reset(new EntropyRateSegmentation<PointT>);
   segmentation->setInputCloud(organized_);
   segmentation->setNumberOfThreads(numberOfThreads());
   segmentation->setGeometry(used_geometry_);

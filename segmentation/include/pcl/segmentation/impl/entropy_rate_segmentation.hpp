@@ -6,11 +6,6 @@
 #include <pcl/segmentation/entropy_rate_segmentation.h>
 #include <pcl/segmentation/impl/grid_segmentation.hpp>
 
-#if __has_include(<pcl/segmentation/surface_grouping.h>)
-#include <pcl/segmentation/surface_grouping.h>
-#define PCL_NURBS_HAVE_SURFACE_GROUPING
-#endif
-
 #include <stdexcept>
 #include <utility>
 
@@ -33,6 +28,7 @@ EntropyRateSegmentation<PointT>::performSegmentation(const nurbs::GridPoints& po
                                                      std::vector<std::uint32_t>& labels)
 {
   borders_.clear();
+  groups_.clear();
   if (!input_->isOrganized())
     throw std::invalid_argument("EntropyRateSegmentation: the cloud is not organized; "
                                 "segmentUnorganized() takes such a cloud");
@@ -53,19 +49,14 @@ std::uint32_t
 EntropyRateSegmentation<PointT>::groupPoints(const nurbs::GridPoints& points,
                                              const nurbs::GridGraph& graph,
                                              const SensorNoise& noise,
-                                             std::vector<std::uint32_t>& labels) const
+                                             std::vector<std::uint32_t>& labels)
 {
   if (mode_ == SURFACES) {
-#ifdef PCL_NURBS_HAVE_SURFACE_GROUPING
-    nurbs::SurfaceGroupingOptions options;
+    nurbs::SurfaceGroupingOptions options = surfaces_;
     options.min_weight = min_weight_;
     options.min_size = this->getMinSegmentSize();
     options.threads = static_cast<int>(this->getNumberOfThreads());
-    return nurbs::groupSurfaces(points, graph, noise, options, labels);
-#else
-    (void)noise;
-    throw std::invalid_argument("EntropyRateSegmentation: built without SURFACES");
-#endif
+    return nurbs::groupSurfaces(points, graph, noise, options, labels, &groups_);
   }
   nurbs::SuperpixelOptions options = superpixels_;
   options.min_part = this->getMinSegmentSize();

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "surface_borders.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+/** How often borders move on, by a cell or more. */
+constexpr int kSweeps = 16;
+/** What a neighbour of another facet costs, in units of a squared residual. */
+constexpr double kNeighbourCost = 1.0;
+/** Residuals beyond this many standard deviations say no more than this. */
+constexpr double kMostSigmas = 6.0;
+
+} // namespace
+
+CellFacets::CellFacets(const JoiningInput& input, const KeptEdges& edges)
+    : input_(input), edges_(edges), facet_(input.points.size(), kNone)
+{
+  const std::vector<std::uint32_t>& node = input.nodes.ofCell();
+  for (std::size_t cell = 0; cell < node.size(); ++cell)
+    if (node[cell] != SurfaceNodes::kNone)
+      facet_[cell] = input.facets.of_node[node[cell]];
+}
+
+double
+CellFacets::residual(std::size_t cell, std::uint32_t facet) const
+{
+  if (facet >= input_.facets.count())
+    return kMostSigmas * kMostSigmas; // without a model
+  const ViewSample sample = input_.chart.sample(cell);
+  const double off = sample.value - input_.facets.models[facet].surface(sample.basis);
+  return std::min(off * off * sample.weight, kMostSigmas * kMostSigmas);
+}
+
+std::uint32_t
+CellFacets::bestNeighbour(std::size_t cell, double sigmas) const
+{
+  std::uint32_t best = kNone;
+  double least = sigmas * sigmas;
+  edges_.forEachNeighbour(cell, [&](std::size_t neighbour) {
+    const std::uint32_t facet = facet_[neighbour];
+    if (facet == kNone || facet == best)
+      return;
+    const double square = residual(cell, facet);
+    if (square < least || (square == least && facet < best)) {
+      least = square;
+      best = facet;
+    }
+  });
+  return best;
+}
+
+void
+CellFacets::grow(double sigmas)
+{
+  std::vector<std::size_t> front;
+  std::vector<std::uint8_t> waiting(facet_.size(), 0);
+  const auto offer = [&](std::size_t cell, std::vector<std::size_t>& list) {
+    if (facet_[cell] != kNone || waiting[cell] != 0)
+      return;
+    waiting[cell] = 1;
+    list.push_back(cell);
+  };
+  for (std::size_t cell = 0; cell < facet_.size(); ++cell)
+    if (facet_[cell] == kNone)
+      edges_.forEachNeighbour(cell, [&](std::size_t next) {
+        if (facet_[next] != kNone)
+          offer(cell, front);
+      });
+  while (!front.empty()) {
+    // A ring at a time, so that no facet is ahead of the others.
+    std::vector<std::uint32_t> chosen;
+    chosen.reserve(front.size());
+    for (const std::size_t cell : front)
+      chosen.push_back(bestNeighbour(cell, sigmas));
+    std::vector<std::size_t> next;
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      facet_[front[k]] = chosen[k];
+      waiting[front[k]] = 0;
+    }
+    for (std::size_t k = 0; k < front.size(); ++k)
+      if (chosen[k] != kNone)
+        edges_.forEachNeighbour(front[k], [&](std::size_t cell) { offer(cell, next); });
+    front.swap(next);
+  }
+}
+
+std::vector<std::size_t>
+CellFacets::spread(std::size_t cell, std::uint32_t facet)
+{
+  std::vector<std::size_t> cells(1, cell);
+  facet_[cell] = facet;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    edges_.forEachNeighbour(cells[k], [&](std::size_t next) {
+      if (facet_[next] == kNone) {
+        facet_[next] = facet;
+        cells.push_back(next);
+      }
+    });
+  return cells;
+}
+
+bool
+CellFacets::isLine(const std::vector<std::size_t>& cells) const
+{
+  constexpr std::size_t kInnerShare = 10; // one in so many
+  const std::uint32_t facet = facet_[cells.front()];
+  const auto most = static_cast<std::size_t>(2 * edges_.graph().numDirections());
+  std::size_t inner = 0;
+  for (const std::size_t cell : cells) {
+    std::size_t same = 0;
+    edges_.forEachNeighbour(
+        cell, [&](std::size_t next) { same += facet_[next] == facet ? 1 : 0; });
+    inner += 4 * same >= 3 * most ? 1 : 0;
+  }
+  return kInnerShare * inner < cells.size();
+}
+
+std::uint32_t
+CellFacets::addLeftOver(std::uint32_t first)
+{
+  std::vector<std::size_t> lines;
+  for (std::size_t cell = 0; cell < facet_.size(); ++cell) {
+    if (facet_[cell] != kNone || !input_.points.valid(cell))
+      continue;
+    const std::vector<std::size_t> cells = spread(cell, first);
+    if (isLine(cells))
+      lines.insert(lines.end(), cells.begin(), cells.end());
+    else
+      ++first;
+  }
+  for (const std::size_t cell : lines)
+    facet_[cell] = kNone;
+  return first;
+}
+
+std::vector<std::size_t>
+CellFacets::atBorders() const
+{
+  std::vector<std::uint8_t> border(facet_.size(), 0);
+  const GridGraph& graph = edges_.graph();
+  for (int d = 0; d < graph.numDirections(); ++d)
+    for (std::size_t cell = 0; cell < facet_.size(); ++cell) {
+      if (facet_[cell] == kNone || !edges_.keeps(d, cell))
+        continue;
+      const auto next = static_cast<std::size_t>(graph.target(d)[cell]);
+      if (facet_[next] != kNone && facet_[next] != facet_[cell])
+        border[cell] = border[next] = 1;
+    }
+  std::vector<std::size_t> cells;
+  for (std::size_t cell = 0; cell < border.size(); ++cell)
+    if (border[cell] != 0)
+      cells.push_back(cell);
+  return cells;
+}
+
+std::uint32_t
+CellFacets::cheapest(std::size_t cell) const
+{
+  std::uint32_t best = facet_[cell];
+  double least = std::numeric_limits<double>::infinity();
+  const auto consider = [&](std::uint32_t facet) {
+    double cost = residual(cell, facet);
+    edges_.forEachNeighbour(cell, [&](std::size_t other) {
+      cost += facet_[other] == facet ? 0.0 : kNeighbourCost;
+    });
+    if (cost < least) {
+      least = cost;
+      best = facet;
+    }
+  };
+  consider(facet_[cell]);
+  edges_.forEachNeighbour(cell, [&](std::size_t next) {
+    if (facet_[next] != kNone && facet_[next] != facet_[cell] && facet_[next] != best)
+      consider(facet_[next]);
+  });
+  return best;
+}
+
+void
+CellFacets::refine()
+{
+  std::vector<std::size_t> front = atBorders();
+  std::vector<std::uint8_t> waiting(facet_.size(), 0);
+  for (int sweep = 0; sweep < kSweeps && !front.empty(); ++sweep) {
+    std::vector<std::size_t> next;
+    for (const std::size_t cell : front) {
+      waiting[cell] = 0;
+      const std::uint32_t best = cheapest(cell);
+      if (best == facet_[cell])
+        continue;
+      facet_[cell] = best;
+      edges_.forEachNeighbour(cell, [&](std::size_t other) {
+        if (waiting[other] == 0 && facet_[other] != kNone) {
+          waiting[other] = 1;
+          next.push_back(other);
+        }
+      });
+    }
+    std::sort(next.begin(), next.end());
+    front.swap(next);
+  }
+}
+
+} // namespace nurbs
+} // namespace pcl

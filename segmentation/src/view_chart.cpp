@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include <pcl/segmentation/view_polynomial.h>
+
+#include "grid_steps.h"
+
+#include <pcl/segmentation/grid_graph.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+/** Share of the point spacing that is granted as noise even to exact points. */
+constexpr double kSpacingShare = 0.05;
+/** The same as a share of the depth, for grids that know no spacing. */
+constexpr double kDepthShare = 1e-5;
+
+/** Share of the change of depth from cell to cell that directions err by. */
+constexpr double kSlopeShare = 0.1;
+
+/** Mean change of depth to the neighbours on either side, but that on the smoother side
+ * where one is beyond an edge. */
+float
+slopeBetween(float before, float after)
+{
+  constexpr float kEdge = 4.0F;
+  const float least = std::min(before, after);
+  const float most = std::max(before, after);
+  return std::isfinite(most) && most < kEdge * least ? 0.5F * (least + most) : least;
+}
+
+/** Change of depth from cell to cell along rows or columns, whichever is more. */
+std::vector<float>
+slopesOf(const GridPoints& points, const GridGraph& graph, int threads)
+{
+  if (graph.numCells() != points.size())
+    throw std::invalid_argument("ViewChart: the graph is not of these points");
+  std::vector<float> slopes(points.size(), 0.0F);
+  for (const int d : {GridGraph::kRight, GridGraph::kDown})
+#pragma omp parallel for num_threads(threads)
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      const auto change = [&](std::int32_t next) {
+        return next == GridGraph::kNone
+                   ? std::numeric_limits<float>::infinity()
+                   : std::abs(points.depth[static_cast<std::size_t>(next)] -
+                              points.depth[i]);
+      };
+      const float slope =
+          slopeBetween(change(graph.source(d)[i]), change(graph.target(d)[i]));
+      if (std::isfinite(slope))
+        slopes[i] = std::max(slopes[i], slope);
+    }
+  return slopes;
+}
+
+struct Box {
+  Eigen::Vector3d least =
+      Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d most = -least;
+};
+
+Box
+boundsOf(const GridPoints& points, const Eigen::Matrix3d& frame)
+{
+  Box box;
+  for (std::size_t cell = 0; cell < points.size(); ++cell)
+    if (points.valid(cell)) {
+      const Eigen::Vector3d local = frame * points.point(cell).cast<double>();
+      box.least = box.least.cwiseMin(local);
+      box.most = box.most.cwiseMax(local);
+    }
+  return box;
+}
+
+} // namespace
+
+ViewChart::ViewChart(const GridPoints& points,
+                     const SensorNoise& noise,
+                     const GridGraph& graph,
+                     int threads)
+    : points_(points),
+      noise_(noise),
+      angular_(isInverseDepthGrid(points.geometry)),
+      spherical_(points.geometry.projection == GridProjection::spherical),
+      frame_(points.geometry.frame),
+      choices_(spherical_ ? std::vector<int>{3, 9} : std::vector<int>{3, 6, 10}),
+      slope_(slopesOf(points, graph, threads))
+{
+  const GridSpacing spacing(points.geometry, GridGraph::kRight);
+  const bool lattice = points.geometry.projection == GridProjection::lattice;
+  spacing_ = lattice ? 0.0 : static_cast<double>(spacing.constant);
+  spacing_per_depth_ = angular_ ? static_cast<double>(spacing.per_depth) : 0.0;
+  if (angular_)
+    return;
+  const Box box = boundsOf(points, frame_);
+  if (!(box.most - box.least).allFinite())
+    return; // without points there is nothing to centre
+  origin_ = 0.5 * (box.least + box.most);
+  scale_ = std::max((box.most - box.least).head<2>().maxCoeff(), 1e-12);
+}
+
+void
+ViewChart::scaleNoise(double factor)
+{
+  if (!(factor > 0.0))
+    throw std::invalid_argument("ViewChart: the noise's factor must be positive");
+  noise_scale_ *= factor;
+}
+
+double
+ViewChart::sigma(std::size_t cell) const
+{
+  const double depth = points_.depth[cell];
+  const double sensor = noise_.sigma(depth);
+  const double slope = kSlopeShare * static_cast<double>(slope_[cell]);
+  const double shape = kSpacingShare * (spacing_ + spacing_per_depth_ * depth) +
+                       kDepthShare * (angular_ ? depth : scale_);
+  const double all =
+      noise_scale_ * std::sqrt(sensor * sensor + slope * slope + shape * shape);
+  return angular_ ? all / (depth * depth) : all;
+}
+
+Eigen::Vector3d
+ViewChart::direction(std::size_t cell) const
+{
+  const Eigen::Vector3d local = frame_ * points_.point(cell).cast<double>();
+  if (angular_)
+    return local / static_cast<double>(points_.depth[cell]);
+  Eigen::Vector3d e = (local - origin_) / scale_;
+  e.z() = 1.0;
+  return e;
+}
+
+std::array<double, kMostViewTerms>
+ViewChart::basis(const Eigen::Vector3d& e) const
+{
+  const double x = e.x();
+  const double y = e.y();
+  const double z = e.z();
+  if (spherical_)
+    return {x, y, z, x * x, x * y, x * z, y * y, y * z, z * z, 0.0};
+  return {1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y};
+}
+
+ViewSample
+ViewChart::sample(std::size_t cell) const
+{
+  const double depth = points_.depth[cell];
+  const Eigen::Vector3d e = direction(cell);
+  const double deviation = sigma(cell);
+  return {e,
+          basis(e),
+          angular_ ? 1.0 / depth : depth - origin_.z(),
+          1.0 / (deviation * deviation)};
+}
+
+Eigen::Vector3d
+ViewChart::normal(const ViewPolynomial& surface, const Eigen::Vector3d& e) const
+{
+  const double value = surface(basis(e));
+  Eigen::Vector3d slope;
+  const int axes = spherical_ ? 3 : 2;
+  constexpr double kStep = 1e-5;
+  slope.setZero();
+  for (int axis = 0; axis < axes; ++axis) { // exact up to rounding: cubic at most
+    const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
+    slope(axis) = (surface(basis(e + step)) - surface(basis(e - step))) / (2.0 * kStep);
+  }
+  if (!angular_)
+    return Eigen::Vector3d(-slope.x() / scale_, -slope.y() / scale_, 1.0).normalized();
+  // The tangent plane n.p = 1 has the inverse depth n.e.
+  if (spherical_)
+    return (slope + (value - slope.dot(e)) * e).normalized();
+  slope.z() = value - slope.dot(e);
+  return slope.normalized();
+}
+
+} // namespace nurbs
+} // namespace pcl
