@@ -83,14 +83,12 @@ private:
   std::size_t line_ = 0;
 };
 
-/** The rotation nearest to a matrix that is one up to the digits of a file. */
-Eigen::Matrix3d
-orthonormal(const Eigen::Matrix3d& matrix, const NumberLines& lines)
+void
+requireRotation(const Eigen::Matrix3d& matrix, const NumberLines& lines)
 {
   constexpr double kMostOff = 1e-3;
   if (!(matrix * matrix.transpose()).isIdentity(kMostOff) || matrix.determinant() < 0.0)
     lines.fail("the rotation is not orthonormal");
-  return Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
 }
 
 StampedPose
@@ -99,8 +97,9 @@ poseOfKitti(const std::vector<double>& n, const NumberLines& lines)
   Eigen::Matrix<double, 3, 4> matrix;
   for (std::size_t k = 0; k < kKittiColumns; ++k)
     matrix(static_cast<Eigen::Index>(k / 4), static_cast<Eigen::Index>(k % 4)) = n[k];
+  requireRotation(matrix.leftCols<3>(), lines);
   StampedPose pose;
-  pose.T_world_body.linear() = orthonormal(matrix.leftCols<3>(), lines);
+  pose.T_world_body.linear() = matrix.leftCols<3>();
   pose.T_world_body.translation() = matrix.col(3);
   return pose;
 }
@@ -131,8 +130,8 @@ readStamps(const std::string& path, Trajectory& trajectory)
     if (count < trajectory.size())
       trajectory[count].stamp = numbers[0];
     if (count > 0 && count < trajectory.size() &&
-        !(trajectory[count].stamp > trajectory[count - 1].stamp))
-      lines.fail("time does not increase");
+        trajectory[count].stamp < trajectory[count - 1].stamp)
+      lines.fail("time runs backwards");
   }
   if (count != trajectory.size())
     lines.failAsWhole("has " + std::to_string(count) + " times for " +
@@ -172,8 +171,8 @@ readTrajectory(const std::string& path, const std::string& times_path)
                                                 : poseOfTum(numbers, lines);
     if (columns == kKittiColumns)
       pose.stamp = static_cast<double>(result.size());
-    if (!result.empty() && !(pose.stamp > result.back().stamp))
-      lines.fail("time does not increase");
+    if (!result.empty() && pose.stamp < result.back().stamp)
+      lines.fail("time runs backwards");
     result.push_back(pose);
   }
   if (result.empty())

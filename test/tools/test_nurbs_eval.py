@@ -60,6 +60,8 @@ class Figures(TrajectoryTest):
         self.write("a.txt", tum())
         self.write("b.txt", tum(late=0.004))
         self.assertEqual(self.report("a.txt", "b.txt")["poses"], 100)
+        self.write("c.txt", tum() + tum().splitlines()[-1] + "\n")  # the last one twice
+        self.assertEqual(self.report("c.txt", "b.txt")["poses"], 100)
         self.fail_with(2, "trajectory", "a.txt", "b.txt", "--max-difference", "0.001",
                        says=["b.txt", "no pose"])
 
@@ -110,7 +112,7 @@ class Failures(TrajectoryTest):
                                (line + line.replace("0 ", "nan ", 1), ["line 2", "nan"]),
                                ("2 " * 12 + "\n", ["line 1", "orthonormal"]),
                                ("0 0 0 0 0 0 0 2\n", ["line 1", "quaternion"]),
-                               (tum(5) + tum(5), ["line 8", "time"]),
+                               (tum(5) + tum(5), ["line 8", "backwards"]),
                                (b"\0\1\2\3" * 50, ["line 1"])):
             self.write("bad.txt", content)
             self.fail_with(2, "trajectory", "good.txt", "bad.txt", says=["bad.txt", *words])

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 import zlib
 
-TOOLS = pathlib.Path(os.environ["PCL_NURBS_TOOLS"])
+TOOLS = pathlib.Path(os.environ["PCL_NURBS_TOOLS"]).resolve()
 NAN = float("nan")
 
 

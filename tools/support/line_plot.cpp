@@ -173,7 +173,7 @@ private:
     const int digits =
         std::clamp(-static_cast<int>(std::floor(std::log10(tick))), 0, 9);
     std::array<char, 64> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%.*f", digits, value);
+    std::snprintf(buffer.data(), buffer.size(), "%.*f", digits, value + 0.0); // no -0
     return buffer.data();
   }
 

@@ -22,7 +22,7 @@ struct StampedPose {
   Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
 };
 
-/** \brief Poses of one body by increasing time.
+/** \brief Poses of one body by time; two may have the same.
  * \ingroup mapping */
 using Trajectory = std::vector<StampedPose>;
 
@@ -30,14 +30,12 @@ using Trajectory = std::vector<StampedPose>;
  * pose a line) or TUM's (stamp tx ty tz qx qy qz qw); the number of columns tells
  * which.
  *
- * Lines that begin with '#' and empty ones are skipped. Rotations are made orthonormal
- * to rounding; one that is off by more than 1e-3 is an error, as are numbers that are
- * not finite and, with stamps, times that do not increase.
- * \param[in] path file
- * \param[in] times_path file with one stamp a line for a KITTI file, empty for none:
- * stamps then count poses
- * \return at least one pose
- * \throws InputError naming file, line and reason */
+ * Lines that begin with '#' and empty ones are skipped. Rotations stay as written, so
+ * those of KITTI are orthonormal to the digits of the file only; one that is off by
+ * more than 1e-3 is an error, as are numbers that are not finite and, with stamps,
+ * times that do not increase. \param[in] path file \param[in] times_path file with one
+ * stamp a line for a KITTI file, empty for none: stamps then count poses \return at
+ * least one pose \throws InputError naming file, line and reason */
 PCL_NURBS_MAPPING_EXPORT Trajectory
 readTrajectory(const std::string& path, const std::string& times_path = {});
 

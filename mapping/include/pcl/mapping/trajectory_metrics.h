@@ -38,9 +38,9 @@ struct TrajectoryPair {
 
 /** \brief Pair the poses of two trajectories by their stamps: each pose of the one with
  * fewer poses takes the nearest of the other one.
- * \param[in] reference, estimate by increasing time
+ * \param[in] reference, estimate by time
  * \param[in] max_difference farther poses are no pair (seconds)
- * \return pairs by increasing time, perhaps none. O(n log m) */
+ * \return pairs by time, perhaps none. O(n log m) */
 PCL_NURBS_MAPPING_EXPORT TrajectoryPair
 associate(const Trajectory& reference,
           const Trajectory& estimate,
