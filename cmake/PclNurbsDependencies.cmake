@@ -8,6 +8,7 @@ find_package(nlohmann_json 3.9 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo) # plots of the tools
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 
 include(PclNurbsPcl)

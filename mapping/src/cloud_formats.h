@@ -3,24 +3,10 @@
 
 #pragma once
 
-#include <pcl/mapping/cloud_reader.h>
-
-#include <string_view>
+#include "input_file.h"
 
 namespace pcl {
 namespace nurbs {
-
-/** The bytes of a file and its name for messages. */
-struct InputFile {
-  std::string name;
-  std::string bytes;
-
-  [[noreturn]] void
-  fail(const std::string& reason) const
-  {
-    throw InputError(name, reason);
-  }
-};
 
 /** Points before an offset is taken off, in the precision of the file. */
 struct RawCloud {

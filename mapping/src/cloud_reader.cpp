@@ -7,42 +7,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 namespace pcl {
 namespace nurbs {
 namespace {
-
-InputFile
-loadFile(const std::string& path, std::size_t max_size)
-{
-  InputFile file{path, {}};
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
-    file.fail("does not exist");
-  if (!std::filesystem::is_regular_file(status))
-    file.fail("is not a file");
-  const auto size = std::filesystem::file_size(path, error);
-  if (error)
-    file.fail(error.message());
-  if (size == 0)
-    file.fail("is empty");
-  if (size > max_size)
-    file.fail("is larger than " + std::to_string(max_size) + " bytes");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream)
-    file.fail(std::strerror(errno));
-  file.bytes.resize(size);
-  if (!stream.read(file.bytes.data(), static_cast<std::streamsize>(size)))
-    file.fail("cannot be read");
-  return file;
-}
 
 CloudKind
 kindByExtension(const InputFile& file)
@@ -144,7 +115,7 @@ InputCloud
 readCloud(const std::string& path, const CloudReadOptions& options)
 {
   requireValid(options);
-  const InputFile file = loadFile(path, options.max_file_size);
+  const InputFile file = loadInputFile(path, options.max_file_size);
   const CloudKind kind = kindByExtension(file);
   requireContent(file, kind);
   PinholeIntrinsics intrinsics;

@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from tool import BINARY, ToolTest, pcd, ply, wave
+from tool import ToolTest, pcd, ply, wave
 
 FORMATS = ("nurbs", "json", "obj", "ply", "png")
 
@@ -97,7 +97,7 @@ class Interrupted(ToolTest):
     """The large cloud takes seconds, so signals at these times meet every stage."""
 
     def interrupt(self, number, after, *arguments):
-        with subprocess.Popen([BINARY, *arguments], cwd=self.folder, text=True,
+        with subprocess.Popen([self.binary, *arguments], cwd=self.folder, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
             time.sleep(after)
             process.send_signal(number)

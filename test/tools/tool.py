@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the PCL-NURBS authors
-"""Runs pcd_to_nurbs in a folder of its own and makes clouds for it."""
+"""Runs the commands in a folder of their own and makes clouds for them."""
 import math
 import os
 import pathlib
@@ -11,7 +11,7 @@ import tempfile
 import unittest
 import zlib
 
-BINARY = os.environ["PCD_TO_NURBS"]
+TOOLS = pathlib.Path(os.environ["PCL_NURBS_TOOLS"]).resolve()
 NAN = float("nan")
 
 
@@ -67,6 +67,12 @@ def depth_rows(width=80, height=60):
 class ToolTest(unittest.TestCase):
     """A test in a temporary folder, which is also the working folder of the tool."""
 
+    program = "pcd_to_nurbs"
+
+    @property
+    def binary(self):
+        return TOOLS / self.program
+
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
         self.folder = pathlib.Path(self.temporary.name)
@@ -83,7 +89,7 @@ class ToolTest(unittest.TestCase):
         return sorted(path.name for path in self.folder.iterdir())
 
     def run_tool(self, *arguments, **options):
-        return subprocess.run([BINARY, *map(str, arguments)], cwd=self.folder, text=True,
+        return subprocess.run([self.binary, *map(str, arguments)], cwd=self.folder, text=True,
                               errors="replace", capture_output=True, check=False, **options)
 
     def succeed(self, *arguments, **options):
@@ -96,7 +102,7 @@ class ToolTest(unittest.TestCase):
         before = self.names()
         result = self.run_tool(*arguments, **options)
         self.assertEqual(result.returncode, code, (arguments, result.stderr))
-        self.assertRegex(result.stderr, r"\Apcd_to_nurbs: [^\n]+\n\Z", arguments)
+        self.assertRegex(result.stderr, rf"\A{self.program}: [^\n]+\n\Z", arguments)
         self.assertEqual(result.stdout, "", arguments)
         self.assertEqual(self.names(), before, arguments)
         for word in says:

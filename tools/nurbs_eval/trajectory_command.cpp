@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "trajectory_command.h"
+
+#include "line_plot.h"
+#include "run_tool.h"
+
+#include <pcl/mapping/cloud_reader.h>
+#include <pcl/mapping/trajectory_metrics.h>
+
+#include <boost/program_options.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+namespace pcl_nurbs_tools {
+namespace {
+
+namespace po = boost::program_options;
+using namespace pcl::nurbs;
+
+constexpr double kDegrees = 180.0 / M_PI;
+
+struct TrajectorySettings {
+  CommonOptions common;
+  std::string reference;
+  std::string estimate;
+  std::string reference_times;
+  std::string estimate_times;
+  std::string plots;
+  std::string align_word;
+  std::string step_word;
+  TrajectoryAlignment alignment = TrajectoryAlignment::SE3;
+  double step = 1.0;
+  RelativeUnit unit = RelativeUnit::Poses;
+  double max_difference = 0.01;
+};
+
+void
+interpretAlignment(TrajectorySettings& settings)
+{
+  static const std::map<std::string, TrajectoryAlignment> words = {
+      {"none", TrajectoryAlignment::None},
+      {"se3", TrajectoryAlignment::SE3},
+      {"sim3", TrajectoryAlignment::Sim3}};
+  const auto found = words.find(settings.align_word);
+  if (found == words.end())
+    throw ToolError(kUsage, "--align must be none, se3 or sim3");
+  settings.alignment = found->second;
+}
+
+void
+interpretStep(TrajectorySettings& settings)
+{
+  static const std::map<std::string, RelativeUnit> units = {
+      {"", RelativeUnit::Poses},
+      {"m", RelativeUnit::Metres},
+      {"s", RelativeUnit::Seconds}};
+  std::size_t end = 0;
+  try {
+    settings.step = std::stod(settings.step_word, &end);
+  } catch (const std::logic_error&) { // no number, or one that is too large
+    settings.step = 0.0;
+  }
+  const auto unit = units.find(settings.step_word.substr(end));
+  const bool whole = settings.step == std::floor(settings.step);
+  if (unit == units.end() || !(settings.step > 0.0) || !std::isfinite(settings.step) ||
+      (unit->second == RelativeUnit::Poses && !whole))
+    throw ToolError(kUsage, "--step must be poses (1), metres (10m) or seconds (1s)");
+  settings.unit = unit->second;
+}
+
+void
+describe(TrajectorySettings& settings, po::options_description& description)
+{
+  description.add_options()(
+      "align",
+      po::value(&settings.align_word)->default_value("se3"),
+      "what is fitted to the estimate first: none, se3 (rigid), sim3 (with scale)")(
+      "step",
+      po::value(&settings.step_word)->default_value("1"),
+      "length of the steps of the relative error: poses (1), metres (10m), seconds "
+      "(1s)")("max-difference",
+              po::value(&settings.max_difference)->default_value(0.01, "0.01"),
+              "poses are compared if their times differ by no more, seconds")(
+      "reference-times",
+      po::value(&settings.reference_times)->value_name("FILE"),
+      "times of a reference in KITTI's format, one a line, seconds")(
+      "estimate-times",
+      po::value(&settings.estimate_times)->value_name("FILE"),
+      "times of an estimate in KITTI's format")(
+      "plots",
+      po::value(&settings.plots)->value_name("FOLDER"),
+      "write path.png (seen along the least extent), errors.png, segments.png there");
+}
+
+bool
+parse(int argc, char** argv, TrajectorySettings& settings)
+{
+  po::options_description common("Options");
+  po::options_description own("Trajectory");
+  std::vector<std::string> files;
+  addCommonOptions(settings.common, common);
+  describe(settings, own);
+  po::options_description shown;
+  shown.add(common).add(own);
+  po::options_description all;
+  all.add(shown).add_options()("file", po::value(&files));
+  po::positional_options_description positional;
+  positional.add("file", -1);
+  po::variables_map values;
+  const int style =
+      po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+  po::store(po::command_line_parser(argc, argv)
+                .options(all)
+                .positional(positional)
+                .style(style)
+                .run(),
+            values);
+  if (values.count("help") != 0) {
+    std::cout
+        << "nurbs_eval trajectory REFERENCE ESTIMATE\n"
+           "Absolute and relative errors of poses, and KITTI's over 100 to 800 m.\n\n"
+           "Files are KITTI's (12 numbers a line) or TUM's (stamp x y z qx qy qz "
+           "qw).\nPoses are paired by time; those of KITTI files without times by "
+           "their number.\n"
+        << shown;
+    return false;
+  }
+  if (values.count("version") != 0) {
+    std::cout << versionText("nurbs_eval");
+    return false;
+  }
+  po::notify(values);
+  if (files.size() != 2)
+    throw ToolError(kUsage, "two files are needed: REFERENCE ESTIMATE (see --help)");
+  settings.reference = files[0];
+  settings.estimate = files[1];
+  interpretAlignment(settings);
+  interpretStep(settings);
+  resolveThreads(settings.common.threads);
+  if (!(settings.max_difference >= 0.0))
+    throw ToolError(kUsage, "--max-difference must not be negative");
+  return true;
+}
+
+nlohmann::json
+toJson(const ErrorStatistics& statistics, double scale = 1.0)
+{
+  return {{"rmse", scale * statistics.rmse},
+          {"mean", scale * statistics.mean},
+          {"median", scale * statistics.median},
+          {"std", scale * statistics.std},
+          {"min", scale * statistics.min},
+          {"max", scale * statistics.max},
+          {"sse", scale * scale * statistics.sse}};
+}
+
+/** Everything that is measured. */
+struct Evaluation {
+  TrajectoryPair pair; /**< aligned */
+  SimilarityTransform alignment;
+  PoseErrors absolute;
+  PoseErrors relative;
+  std::vector<KittiSegment> segments;
+};
+
+Evaluation
+evaluate(const TrajectorySettings& settings)
+{
+  const Trajectory reference =
+      readTrajectory(settings.reference, settings.reference_times);
+  const Trajectory estimate =
+      readTrajectory(settings.estimate, settings.estimate_times);
+  Evaluation result;
+  TrajectoryPair pair = associate(reference, estimate, settings.max_difference);
+  if (pair.reference.empty())
+    throw InputError(settings.estimate, "no pose has a time of " + settings.reference);
+  try {
+    result.alignment = alignTrajectory(pair, settings.alignment);
+  } catch (const std::invalid_argument&) {
+    throw InputError(settings.estimate,
+                     "fewer than three poses to compare, or all on a line: use --align "
+                     "none");
+  }
+  // Motions are compared as they are, but for the scale of a single camera.
+  result.pair = {pair.reference, transformed(pair.estimate, result.alignment)};
+  result.absolute = absoluteErrors(result.pair);
+  result.relative = relativeErrors(result.pair, settings.step, settings.unit);
+  result.segments = kittiSegments(result.pair);
+  return result;
+}
+
+nlohmann::json
+reportOf(const TrajectorySettings& settings, const Evaluation& evaluation)
+{
+  const KittiErrors kitti = meanErrors(evaluation.segments);
+  nlohmann::json report = {
+      {"poses", evaluation.pair.reference.size()},
+      {"length_m", pathLengths(evaluation.pair.reference).back()},
+      {"align", settings.align_word},
+      {"scale", evaluation.alignment.scale},
+      {"ape_m", toJson(summarizeErrors(evaluation.absolute.translation))},
+      {"ape_deg", toJson(summarizeErrors(evaluation.absolute.rotation), kDegrees)},
+      {"ate_rmse_m", summarizeErrors(evaluation.absolute.translation).rmse},
+      {"rpe_step", settings.step_word},
+      {"rpe_m", toJson(summarizeErrors(evaluation.relative.translation))},
+      {"rpe_deg", toJson(summarizeErrors(evaluation.relative.rotation), kDegrees)},
+      {"kitti_segments", kitti.segments}};
+  if (kitti.segments > 0) {
+    report["kitti_t_percent"] = 100.0 * kitti.translation;
+    report["kitti_r_deg_per_m"] = kDegrees * kitti.rotation;
+  }
+  return report;
+}
+
+void
+print(const TrajectorySettings& settings, const nlohmann::json& report)
+{
+  const auto figure = [&](const char* group, const char* name) {
+    return report.at(group).at(name).get<double>();
+  };
+  std::printf("%zu poses compared, %.1f m, aligned: %s",
+              report["poses"].get<std::size_t>(),
+              report["length_m"].get<double>(),
+              settings.align_word.c_str());
+  if (settings.alignment == TrajectoryAlignment::Sim3)
+    std::printf(" (scale %.6f)", report["scale"].get<double>());
+  std::printf("\n%-24s %12s %12s %12s %12s\n", "", "rmse", "mean", "median", "max");
+  const auto row = [&](const std::string& name, const char* group) {
+    std::printf("%-24s %12.6f %12.6f %12.6f %12.6f\n",
+                name.c_str(),
+                figure(group, "rmse"),
+                figure(group, "mean"),
+                figure(group, "median"),
+                figure(group, "max"));
+  };
+  row("absolute (m)", "ape_m");
+  row("absolute (deg)", "ape_deg");
+  row("over " + settings.step_word + " (m)", "rpe_m");
+  row("over " + settings.step_word + " (deg)", "rpe_deg");
+  if (report.contains("kitti_t_percent"))
+    std::printf("KITTI, 100 to 800 m: %.6f %%, %.6f deg/100 m (%zu segments)\n",
+                report["kitti_t_percent"].get<double>(),
+                100.0 * report["kitti_r_deg_per_m"].get<double>(),
+                report["kitti_segments"].get<std::size_t>());
+  else
+    std::printf("KITTI: the drive is shorter than 100 m\n");
+}
+
+/** Positions seen along the axis of least extent, so that a drive is seen from above in
+ * a camera's frame as in a map's. */
+LinePlot
+pathPlot(const Evaluation& evaluation)
+{
+  static const char* const names[] = {"x (m)", "y (m)", "z (m)"};
+  Eigen::AlignedBox3d box;
+  for (const StampedPose& pose : evaluation.pair.reference)
+    box.extend(pose.T_world_body.translation());
+  Eigen::Index least = 0;
+  box.sizes().minCoeff(&least);
+  const Eigen::Index across = least == 0 ? 1 : 0;
+  const Eigen::Index up = least == 2 ? 1 : 2;
+  LinePlot plot{"Paths", names[across], names[up], true, {}};
+  const auto add = [&](const char* name, const Trajectory& trajectory) {
+    plot.lines.push_back({name, {}});
+    for (const StampedPose& pose : trajectory)
+      plot.lines.back().points.emplace_back(pose.T_world_body.translation()(across),
+                                            pose.T_world_body.translation()(up));
+  };
+  add("reference", evaluation.pair.reference);
+  add("estimate", evaluation.pair.estimate);
+  return plot;
+}
+
+LinePlot
+errorPlot(const Evaluation& evaluation)
+{
+  LinePlot plot{"Absolute error", "path (m)", "error (m)", false, {{"", {}}}};
+  const std::vector<double> path = pathLengths(evaluation.pair.reference);
+  for (std::size_t k = 0; k < path.size(); ++k)
+    plot.lines[0].points.emplace_back(path[k], evaluation.absolute.translation[k]);
+  return plot;
+}
+
+LinePlot
+segmentPlot(const Evaluation& evaluation)
+{
+  LinePlot plot{"Relative error over segments",
+                "length (m)",
+                "error (% of the length; 0.01 deg/m)",
+                false,
+                {{"translation", {}}, {"rotation", {}}}};
+  for (double length = 100.0; length <= 800.0; length += 100.0) {
+    const KittiErrors errors = meanErrors(evaluation.segments, length);
+    if (errors.segments == 0)
+      continue;
+    plot.lines[0].points.emplace_back(length, 100.0 * errors.translation);
+    plot.lines[1].points.emplace_back(length, 100.0 * kDegrees * errors.rotation);
+  }
+  return plot;
+}
+
+void
+writePlots(const std::filesystem::path& folder, const Evaluation& evaluation)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw ToolError(kCannotWrite,
+                    "cannot write " + folder.string() + ": " + error.message());
+  writePlot((folder / "path.png").string(), pathPlot(evaluation));
+  writePlot((folder / "errors.png").string(), errorPlot(evaluation));
+  if (!evaluation.segments.empty())
+    writePlot((folder / "segments.png").string(), segmentPlot(evaluation));
+}
+
+} // namespace
+
+void
+evaluateTrajectory(int argc, char** argv)
+{
+  TrajectorySettings settings;
+  if (!parse(argc, argv, settings))
+    return;
+  const Evaluation evaluation = evaluate(settings);
+  const nlohmann::json report = reportOf(settings, evaluation);
+  if (!settings.common.report.empty())
+    writeText(settings.common.report, report.dump(2) + '\n');
+  if (!settings.plots.empty())
+    writePlots(settings.plots, evaluation);
+  if (!settings.common.quiet)
+    print(settings, report);
+}
+
+} // namespace pcl_nurbs_tools
