@@ -89,8 +89,8 @@ typicalCorrelation(GridProjection projection)
 }
 
 /** Fit with given knots. Control points beyond the points' border may be pulled behind
- * the camera by noise; the gentlest stiffness that keeps them in front is used. \throws
- * std::domain_error if none does */
+ * the camera by noise; the gentlest stiffness that keeps them in front is used.
+ * \throws std::domain_error if none does */
 SurfaceFit
 fitInFront(const HeightFieldFrame& frame,
            const SurfaceKnots& knots,

@@ -22,7 +22,9 @@ struct SegmentPatches {
 };
 
 /** \brief Turn a segment into patches: fit, trim, and try the connected parts of what
- * is left again. \param[in] input the cloud \param[in] segment its cells */
+ * is left again.
+ * \param[in] input the cloud
+ * \param[in] segment its cells */
 SegmentPatches
 patchesOfSegment(const ReconstructionInput& input, CellSet segment);
 

@@ -68,7 +68,8 @@ private:
     members_[facet].clear();
   }
 
-  /** Finds the facets beside one. \return number of cells at its border */
+  /** Finds the facets beside one.
+   * \return number of cells at its border */
   std::size_t
   lookAround(std::uint32_t facet)
   {

@@ -40,7 +40,8 @@ public:
   void
   mergeWhileBetter();
 
-  /** One step of mergeWhileBetter(). \return false when no merge pays */
+  /** One step of mergeWhileBetter().
+   * \return false when no merge pays */
   bool
   mergeOnce();
 

@@ -35,10 +35,10 @@ modelCriterion(ModelCriterion criterion, double samples, double rss, double para
  *
  * From one bilinear span: residuals are scored against their noise, group testing finds
  * the salient bins, knots are added where they are (or a degree is raised) as long as
- * the criterion falls, and knots it no longer needs are taken out again. \param[in]
- * samples binned points \param[in] noise stated standard deviation of a value of unit
- * weight, 0 if unknown; what the samples themselves show comes first, except for
- * KnownNoise
+ * the criterion falls, and knots it no longer needs are taken out again.
+ * \param[in] samples binned points
+ * \param[in] noise stated standard deviation of a value of unit weight, 0 if unknown;
+ * what the samples themselves show comes first, except for KnownNoise
  * \param[in] options limits and criterion
  * \param[in] start model to begin with instead, over the same domain; null for none */
 KnotSearchResult

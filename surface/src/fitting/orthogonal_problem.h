@@ -211,8 +211,8 @@ private:
 };
 
 /** \brief The same surface over a domain that holds all parameters: the border spans
- * are extrapolated, inner knots stay. \throws std::domain_error if a weight would not
- * be positive there */
+ * are extrapolated, inner knots stay.
+ * \throws std::domain_error if a weight would not be positive there */
 NurbsSurface
 extendedDomain(const NurbsSurface& surface, const Eigen::Matrix2Xd& parameters);
 

@@ -71,12 +71,12 @@ struct InputCloud {
  *
  * Every byte of the file is untrusted: counts are checked against the size of the file
  * before anything is allocated, and what is wrong is said in one line. The whole file
- * is held in memory while it is read. \param[in] path file; its extension names its
- * kind \param[in] options what the file does not say \return the cloud, with at least
- * one point; organized when the file says so \throws InputError when the file cannot be
- * read, is damaged or is of another kind \throws std::invalid_argument when an option
- * makes no sense
- */
+ * is held in memory while it is read.
+ * \param[in] path file; its extension names its kind
+ * \param[in] options what the file does not say
+ * \return the cloud, with at least one point; organized when the file says so
+ * \throws InputError when the file cannot be read, is damaged or is of another kind
+ * \throws std::invalid_argument when an option makes no sense */
 PCL_NURBS_MAPPING_EXPORT InputCloud
 readCloud(const std::string& path, const CloudReadOptions& options = {});
 

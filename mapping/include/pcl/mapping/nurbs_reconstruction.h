@@ -19,16 +19,12 @@ namespace pcl {
 /** \brief Turns a point cloud into trimmed NURBS surfaces: organize, segment, fit,
  * trim.
  *
- * \code
- * pcl::NurbsReconstruction<pcl::PointXYZ> reconstruction;
- * reconstruction.setInputCloud(cloud);
- * pcl::nurbs::SurfaceModel model;
- * if (reconstruction.reconstruct(model))
- *   pcl::nurbs::writeNurbsFile("cloud.nurbs", model);
- * \endcode
- * Every stage has a default and can be replaced: the raster by setGeometry(), the noise
- * by setSensorNoise(), the segmentation by setSegmentation(). \ingroup mapping
- */
+ * \code pcl::NurbsReconstruction<pcl::PointXYZ> reconstruction;
+ * reconstruction.setInputCloud(cloud); pcl::nurbs::SurfaceModel model; if
+ * (reconstruction.reconstruct(model)) pcl::nurbs::writeNurbsFile("cloud.nurbs", model);
+ * \endcode Every stage has a default and can be replaced: the raster by setGeometry(),
+ * the noise by setSensorNoise(), the segmentation by setSegmentation().
+ * \ingroup mapping */
 template <typename PointT>
 class NurbsReconstruction : public PCLBase<PointT> {
   using PCLBase<PointT>::input_;

@@ -28,9 +28,11 @@ PCL_NURBS_MAPPING_EXPORT ReconstructionStatistics
 summarize(const Reconstruction& reconstruction);
 
 /** \brief Value of the nearest labelled point for each query, NaN where a query's
- * nearest point is further away than \a radius: colours a mesh by deviation. \param[in]
- * points the cloud \param[in] reconstruction distances per cell \param[in] queries
- * places on the surfaces, metres \param[in] radius metres */
+ * nearest point is further away than \a radius: colours a mesh by deviation.
+ * \param[in] points the cloud
+ * \param[in] reconstruction distances per cell
+ * \param[in] queries places on the surfaces, metres
+ * \param[in] radius metres */
 PCL_NURBS_MAPPING_EXPORT std::vector<double>
 nearestDistances(const GridPoints& points,
                  const Reconstruction& reconstruction,

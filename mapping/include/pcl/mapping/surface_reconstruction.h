@@ -64,10 +64,12 @@ struct Reconstruction {
  * a base plane), in which it is a scalar field; knots are searched, the field is
  * fitted, and the points within tolerance are the patch, whose border in the grid
  * becomes the trimming loops. What is left of the segment is tried again in its
- * connected parts. \param[in] points the cloud \param[in] labels segment of each cell,
- * 0 for none (any numbers) \param[in] noise depth noise of the sensor; at least 1e-5
- * of the median of the
- * points' largest coordinates is assumed \param[in] options see there
+ * connected parts.
+ * \param[in] points the cloud
+ * \param[in] labels segment of each cell, 0 for none (any numbers)
+ * \param[in] noise depth noise of the sensor; at least 1e-5 of the median of the
+ * points' largest coordinates is assumed
+ * \param[in] options see there
  * \throws std::invalid_argument if sizes do not match or an option is out of range;
  * what \a options.progress or \a options.stop throw comes through
  * \ingroup mapping */

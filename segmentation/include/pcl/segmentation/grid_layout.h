@@ -45,11 +45,12 @@ estimateGridGeometry(const PointList& points, int width, int height, int threads
  * from their density. Of several points in a cell the nearest to the sensor stays;
  * others move over to a free cell beside it (their index does, never the point), and
  * the resolution rises until less than a tenth is dropped or there are 16 cells a
- * point. O(n) per resolution tried. \param[in] points in the sensor's frame, for
- * angular projections; not finite ones are ignored \param[in] projection perspective,
- * spherical or plane; nothing = by the data: the projection in which the depth is most
- * nearly a function of the cell \throws std::invalid_argument for a lattice
- */
+ * point. O(n) per resolution tried.
+ * \param[in] points in the sensor's frame, for angular projections; not finite ones are
+ * ignored
+ * \param[in] projection perspective, spherical or plane; nothing = by the data: the
+ * projection in which the depth is most nearly a function of the cell
+ * \throws std::invalid_argument for a lattice */
 PCL_NURBS_SEGMENTATION_EXPORT GridLayout
 layOutScattered(const PointList& points, std::optional<GridProjection> projection);
 

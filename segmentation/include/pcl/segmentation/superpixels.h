@@ -53,12 +53,13 @@ struct Superpixels {
  *
  * Edges without weight join nothing. A graph of more than K connected parts ends with a
  * group for each of them. O(edges log edges) time and about 14 bytes per edge and 36
- * per node, input included. Runs in one thread. \param[in] graph weighted graph
+ * per node, input included. Runs in one thread.
+ * \param[in] graph weighted graph
  * \param[in] options number of groups and balance
  * \throws std::invalid_argument when the graph is not valid (requireValidGraph()), the
  * number of groups is 0, the balance is negative, infinite or not a number, or there
- * are 2^32 edges or nodes \ingroup segmentation
- */
+ * are 2^32 edges or nodes
+ * \ingroup segmentation */
 PCL_NURBS_SEGMENTATION_EXPORT Superpixels
 entropyRateSuperpixels(const WeightedGraph& graph, const SuperpixelOptions& options);
 

@@ -118,8 +118,8 @@ private:
 };
 
 /** \brief Sums over points from which the best polynomials follow: normal equations.
- * They add. \ingroup segmentation
- */
+ * They add.
+ * \ingroup segmentation */
 class PCL_NURBS_SEGMENTATION_EXPORT ViewSums {
 public:
   void
@@ -183,8 +183,8 @@ private:
 };
 
 /** \brief Fits of one set of points with different numbers of terms: what the smaller
- * ones cost is not spent again. Refers to the sums. \ingroup segmentation
- */
+ * ones cost is not spent again. Refers to the sums.
+ * \ingroup segmentation */
 class PCL_NURBS_SEGMENTATION_EXPORT ViewFit {
 public:
   explicit ViewFit(const ViewSums& sums);

@@ -38,8 +38,8 @@ struct ClosestPoint {
  * Local descent is Newton on the true distance (Piegl & Tiller, section 6.1, equations
  * 6.4 to 6.9), Gauss-Newton where the Hessian is not positive, with steps that never
  * increase the distance, borders as active constraints, and continuation over closed
- * seams and creases. \ingroup surface
- */
+ * seams and creases.
+ * \ingroup surface */
 class PCL_NURBS_SURFACE_EXPORT ClosestPointFinder {
 public:
   explicit ClosestPointFinder(NurbsSurface surface);
@@ -81,7 +81,8 @@ struct CurveClosestPoint {
 };
 
 /** \brief Orthogonal projection of points on a curve in the plane or in space; the
- * guarantees are those of ClosestPointFinder. \ingroup surface */
+ * guarantees are those of ClosestPointFinder.
+ * \ingroup surface */
 template <int Dim>
 class CurveClosestPointFinder {
 public:

@@ -19,7 +19,8 @@ namespace nurbs {
 
 /** \brief Ruled surface S(u, v) = (1 - v) C0(u) + v C1(u) for polynomial curves; for
  * rational ones the same in homogeneous space, so rulings are straight lines between
- * points of equal parameter (section 8.4). v in [0, 1], degree 1. \ingroup surface */
+ * points of equal parameter (section 8.4). v in [0, 1], degree 1.
+ * \ingroup surface */
 PCL_NURBS_SURFACE_EXPORT NurbsSurface
 ruledSurface(const NurbsCurve3& start, const NurbsCurve3& end);
 
@@ -30,7 +31,8 @@ ruledSurface(const NurbsCurve3& start, const NurbsCurve3& end);
  * u is the angle as in circularArc(), degree 2; v is the parameter of the generatrix.
  * Control points of the generatrix on the axis give a degenerate border. O(n).
  * \throws std::invalid_argument if the sweep is not in (0, 2 pi] or the frame is not
- * rigid \ingroup surface */
+ * rigid
+ * \ingroup surface */
 PCL_NURBS_SURFACE_EXPORT NurbsSurface
 revolvedSurface(const NurbsCurve3& generatrix,
                 const Eigen::Isometry3d& axis_frame,
@@ -97,7 +99,8 @@ sweptSurface(const NurbsCurve3& profile, const NurbsCurve3& trajectory, int sect
  * \param[in] right border u = 1
  * \param[in] corner_tolerance largest gap at a corner, in metres
  * \throws std::invalid_argument if the borders do not meet, or weights cannot agree at
- * the corners \ingroup surface */
+ * the corners
+ * \ingroup surface */
 PCL_NURBS_SURFACE_EXPORT NurbsSurface
 coonsSurface(const NurbsCurve3& bottom,
              const NurbsCurve3& top,

@@ -15,13 +15,12 @@ namespace nurbs {
  *
  * The homogeneous point of (u, v, h) is matrix() * (u, v, h, 1)'. Control points at the
  * Greville abscissae reproduce u and v exactly, so such a surface stores one number per
- * control point, and fitting it is a scalar linear problem. Two cases matter:
- * - plane: h is the height above a base plane, the surface is polynomial;
- * - perspective: (u, v) is the pixel of a pinhole camera and h the inverse depth, so
- * the weights of the surface are the inverse depth. A plane is then exactly linear in
- * (u, v) and the noise of h is nearly constant for a triangulating sensor. \ingroup
- * surface
- */
+ * control point, and fitting it is a scalar linear problem. Two cases matter: - plane:
+ * h is the height above a base plane, the surface is polynomial; - perspective: (u, v)
+ * is the pixel of a pinhole camera and h the inverse depth, so the weights of the
+ * surface are the inverse depth. A plane is then exactly linear in (u, v) and the noise
+ * of h is nearly constant for a triangulating sensor.
+ * \ingroup surface */
 class PCL_NURBS_SURFACE_EXPORT HeightFieldFrame {
 public:
   /** \brief Heights over the xy plane. */

@@ -108,9 +108,10 @@ interpolateCurve(const PointSequence<Dim>& points,
  * \param[in] points one column each
  * \param[in] parameters one per point, non-decreasing, in the domain of \a knots
  * \param[in] knots clamped, and the first and last parameter its ends, if ends are
- * fixed \param[in] options weights and what is fixed \throws std::invalid_argument if
- * that does not hold \throws std::domain_error if the points do not determine every
- * control point */
+ * fixed
+ * \param[in] options weights and what is fixed
+ * \throws std::invalid_argument if that does not hold
+ * \throws std::domain_error if the points do not determine every control point */
 template <int Dim>
 NurbsCurve<Dim>
 approximateCurve(const PointSequence<Dim>& points,

@@ -71,8 +71,8 @@ private:
  * Control points are held in homogeneous form (w P, w), one column each; the control
  * point (i, j) is column i * numControlPointsV() + j. All const members are safe to
  * call from several threads. Notation and algorithm numbers: Piegl & Tiller, The NURBS
- * Book, 2nd ed., chapter 4. \ingroup surface
- */
+ * Book, 2nd ed., chapter 4.
+ * \ingroup surface */
 class PCL_NURBS_SURFACE_EXPORT NurbsSurface {
 public:
   using HomogeneousPoints = Eigen::Matrix<double, 4, Eigen::Dynamic>;

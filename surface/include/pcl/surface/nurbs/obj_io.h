@@ -30,8 +30,9 @@ toObj(const SurfaceModel& model);
 /** \brief The B-spline surfaces of an OBJ text.
  *
  * Meshes, curves in space, names and materials are skipped. Surfaces and trimming
- * curves must be used over their whole domain. \param[in] text untrusted \throws
- * ObjIoError naming the line that is wrong */
+ * curves must be used over their whole domain.
+ * \param[in] text untrusted
+ * \throws ObjIoError naming the line that is wrong */
 PCL_NURBS_SURFACE_EXPORT SurfaceModel
 fromObj(std::string_view text);
 

@@ -29,14 +29,16 @@ bilinearPatch(const Eigen::Vector3d& corner_00,
               const Eigen::Vector3d& corner_01,
               const Eigen::Vector3d& corner_11);
 
-/** \brief Rectangle of the xy plane of \a frame with one corner at its origin: degree
- * 1 x 1, four control points, S(u, v) = origin + u x + v y on [0, size_x] x [0,
- * size_y]; the normal is z. \ingroup surface */
+/** \brief Rectangle of the xy plane of \a frame with one corner at its origin: degree 1
+ * x 1, four control points, S(u, v) = origin + u x + v y on [0, size_x] x [0, size_y];
+ * the normal is z.
+ * \ingroup surface */
 PCL_NURBS_SURFACE_EXPORT NurbsSurface
 planePatch(const Eigen::Isometry3d& frame, double size_x, double size_y);
 
 /** \brief Cylinder about the z axis of \a frame: u is the angle, v in [0, height] the
- * height above the origin. Degree 2 x 1. \ingroup surface */
+ * height above the origin. Degree 2 x 1.
+ * \ingroup surface */
 PCL_NURBS_SURFACE_EXPORT NurbsSurface
 cylinder(const Eigen::Isometry3d& frame,
          double radius,

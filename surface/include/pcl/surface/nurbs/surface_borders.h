@@ -24,8 +24,9 @@ borderCurve(const NurbsSurface& surface, SurfaceBorder border);
 /** \brief Whether a border has shrunk to a point (a pole or an apex).
  *
  * True if all control points of the border lie within \a tolerance metres of their
- * first; by the convex hull property so does the border then. Exact for tolerance 0
- * up to rounding. O(n). \ingroup surface */
+ * first; by the convex hull property so does the border then. Exact for tolerance 0 up
+ * to rounding. O(n).
+ * \ingroup surface */
 PCL_NURBS_SURFACE_EXPORT bool
 isDegenerate(const NurbsSurface& surface, SurfaceBorder border, double tolerance);
 
@@ -33,7 +34,8 @@ isDegenerate(const NurbsSurface& surface, SurfaceBorder border, double tolerance
  * map to the same border curve, within \a tolerance metres at equal parameters.
  *
  * The borders are compared at 2 q + 1 parameters of each span, as many as it takes to
- * tell two rational curves of degree q apart. O(n q). \ingroup surface */
+ * tell two rational curves of degree q apart. O(n q).
+ * \ingroup surface */
 PCL_NURBS_SURFACE_EXPORT bool
 isClosed(const NurbsSurface& surface, Direction direction, double tolerance);
 

@@ -73,7 +73,8 @@ struct ParameterBox {
  * \param[in] points points; their parameters are found by the frame
  * \param[in] options how to fit
  * \throws std::invalid_argument for no points, values that are not finite or bad
- * options \throws std::domain_error if the result would reach behind the camera */
+ * options
+ * \throws std::domain_error if the result would reach behind the camera */
 PCL_NURBS_SURFACE_EXPORT SurfaceFit
 fitHeightField(const HeightFieldFrame& frame,
                const KnotVector& knots_u,
@@ -120,17 +121,22 @@ chooseParametricKnots(const FitPoints& points,
 
 /** \brief Fit control points and weights to the orthogonal distances, from a first
  * surface of the wanted degrees and knots. A quadric or torus with exact points is
- * found exactly. \param[in] start surface to start from \param[in] points points with
- * parameters on \a start \param[in] options how to fit; distance is orthogonal */
+ * found exactly.
+ * \param[in] start surface to start from
+ * \param[in] points points with parameters on \a start
+ * \param[in] options how to fit; distance is orthogonal */
 PCL_NURBS_SURFACE_EXPORT SurfaceFit
 fitRational(const NurbsSurface& start,
             const FitPoints& points,
             const SurfaceFitOptions& options);
 
 /** \brief Orthogonal distance and foot point of points whose parameters are nearly
- * right. \param[in] surface surface \param[in] positions points, metres \param[in,out]
- * parameters starts, then foot points \param[in] threads number of threads \return
- * distance of each, positive on the side of the normal S_u x S_v, metres */
+ * right.
+ * \param[in] surface surface
+ * \param[in] positions points, metres
+ * \param[in,out] parameters starts, then foot points
+ * \param[in] threads number of threads
+ * \return distance of each, positive on the side of the normal S_u x S_v, metres */
 PCL_NURBS_SURFACE_EXPORT Eigen::VectorXd
 orthogonalDistances(const NurbsSurface& surface,
                     const Eigen::Matrix3Xd& positions,

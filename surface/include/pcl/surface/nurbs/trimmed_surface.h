@@ -111,9 +111,9 @@ public:
   /** \brief Area of the trimmed part in the unit of the control points squared.
    *
    * Green's theorem turns the integral of |S_u x S_v| into one over the loops, which
-   * are taken as they are, not flattened; the loops must not overlap. \param[in]
-   * relative_tolerance the integration is refined until it changes by less \throws
-   * std::invalid_argument unless the tolerance is positive */
+   * are taken as they are, not flattened; the loops must not overlap.
+   * \param[in] relative_tolerance the integration is refined until it changes by less
+   * \throws std::invalid_argument unless the tolerance is positive */
   double
   area(double relative_tolerance = 1e-6) const;
 
