@@ -93,12 +93,23 @@ class CannotWrite(ToolTest):
         self.assertTrue((self.folder / "null.nurbs").is_symlink())
 
 
+def wait_until_caught(pid, number):
+    """Before a program handles a signal, as slow ones may still be loading, it is killed."""
+    while True:
+        with open(f"/proc/{pid}/status", encoding="ascii") as status:
+            caught = next(line for line in status if line.startswith("SigCgt:"))
+        if int(caught.split()[1], 16) >> (number - 1) & 1:
+            return
+        time.sleep(0.01)
+
+
 class Interrupted(ToolTest):
     """The large cloud takes seconds, so signals at these times meet every stage."""
 
     def interrupt(self, number, after, *arguments):
         with subprocess.Popen([self.binary, *arguments], cwd=self.folder, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            wait_until_caught(process.pid, number)
             time.sleep(after)
             process.send_signal(number)
             out, error = process.communicate()

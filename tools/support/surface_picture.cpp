@@ -58,7 +58,7 @@ labelledPoints(const pcl::nurbs::GridPoints& points,
   std::vector<Eigen::Vector3d> result;
   for (std::size_t cell = 0; cell < points.size(); ++cell)
     if (reconstruction.labels[cell] != 0)
-      result.push_back(points.point(cell).cast<double>());
+      result.emplace_back(points.point(cell).cast<double>());
   return result;
 }
 

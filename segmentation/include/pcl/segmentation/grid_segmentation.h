@@ -35,7 +35,7 @@ public:
   using Ptr = shared_ptr<GridSegmentation<PointT>>;
   using ConstPtr = shared_ptr<const GridSegmentation<PointT>>;
 
-  ~GridSegmentation() override = default;
+  virtual ~GridSegmentation() = default;
 
   /** \brief Raster of the input, when it is known (CloudOrganizer::getGeometry());
    * otherwise it is estimated from the points. */
