@@ -89,14 +89,14 @@ MatchPairs::makeTerm(std::size_t i,
 }
 
 void
-MatchPairs::update(const Eigen::Isometry3d& pose)
+MatchPairs::update(const Eigen::Isometry3d& pose, bool keep_pairs)
 {
   const double stale = kStaleMove * map_.options().voxel_size;
   const auto work = [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d place = pose * scan_[i].cast<double>();
       MatchPair& pair = pairs_[i];
-      if (!((place - pair.place).squaredNorm() < stale * stale))
+      if (!keep_pairs && !((place - pair.place).squaredNorm() < stale * stale))
         lookUp(place, pair);
       if (pair.found)
         terms_[i] = makeTerm(i, place, pose.linear());

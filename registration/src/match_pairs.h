@@ -38,9 +38,9 @@ public:
              const ScanPoints& normals,
              const MatchOptions& options);
 
-  /** Bring the pairs up to date with a pose, and their terms. */
+  /** Bring the pairs up to date with a pose, and their terms; or only the terms. */
   void
-  update(const Eigen::Isometry3d& pose);
+  update(const Eigen::Isometry3d& pose, bool keep_pairs);
 
   const std::vector<MatchPair>&
   pairs() const

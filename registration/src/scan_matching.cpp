@@ -17,10 +17,14 @@ namespace nurbs {
 namespace {
 
 constexpr std::size_t kMinPairs = 6;
-/** Residuals do not count as noise below this, metres: keeps an exact copy of the
- * target from making all of its points outliers of rounding. */
-constexpr double kMinScale = 1e-4;
+/** Noise found in the residuals counts as at least so many voxels: where most of the
+ * target is one exact plane, all that is curved would be an outlier. */
+constexpr double kMinScale = 0.02;
 constexpr double kKernelSigmas = 3.0;
+/** The kernel begins with so many voxels and shrinks by a factor per iteration, so that
+ * a rough guess is not taken for outliers (graduated non-convexity). */
+constexpr double kFirstWidth = 1.0;
+constexpr double kShrink = 0.6;
 /** Cells of the cluster-robust covariance, in voxels. */
 constexpr double kClusterVoxels = 4.0;
 
@@ -82,10 +86,16 @@ solve(const NormalEquations& sums, double min_support)
 }
 
 RobustKernel
-kernelFor(const MatchPairs& pairs, RobustKernel kernel)
+kernelFor(const MatchPairs& pairs,
+          RobustKernel kernel,
+          double voxel_size,
+          int iteration)
 {
-  if (kernel.type != RobustKernelType::None && kernel.width <= 0.0)
-    kernel.width = kKernelSigmas * std::max(pairs.scale(), kMinScale);
+  if (kernel.type == RobustKernelType::None || kernel.width > 0.0)
+    return kernel;
+  const double scale = std::max(pairs.scale(), kMinScale * voxel_size);
+  kernel.width = std::max(kKernelSigmas * scale,
+                          kFirstWidth * voxel_size * std::pow(kShrink, iteration));
   return kernel;
 }
 
@@ -116,30 +126,31 @@ matchScan(const VoxelMap& map,
   MatchResult result;
   result.pose = guess;
   MatchPairs pairs(map, scan, normals, options);
-  RobustKernel kernel;
+  const double size = map.options().voxel_size;
   for (; result.iterations < options.max_iterations && !result.converged;
        ++result.iterations) {
-    pairs.update(result.pose);
+    // Pairs that are kept end a cycle between two ways of pairing.
+    const bool keep = 2 * result.iterations > options.max_iterations;
+    pairs.update(result.pose, keep);
     if (pairs.found() < kMinPairs)
       return result;
-    kernel = kernelFor(pairs, options.kernel);
+    const RobustKernel kernel =
+        kernelFor(pairs, options.kernel, size, result.iterations);
     const Tangent step =
         solve(linearize(pairs, scan, kernel, options.threads), options.min_support);
     result.pose = orthonormal(result.pose * exponential(step));
     result.converged = step.head<3>().norm() < options.translation_epsilon &&
                        step.tail<3>().norm() < options.rotation_epsilon;
   }
-  pairs.update(result.pose);
-  if (pairs.found() < kMinPairs) {
-    result.converged = false;
-    return result;
-  }
-  describeMatch(pairs,
-                scan,
-                kernelFor(pairs, options.kernel),
-                options,
-                kClusterVoxels * map.options().voxel_size,
-                result);
+  pairs.update(result.pose, false);
+  result.converged = result.converged && pairs.found() >= kMinPairs;
+  if (pairs.found() >= kMinPairs)
+    describeMatch(pairs,
+                  scan,
+                  kernelFor(pairs, options.kernel, size, result.iterations),
+                  options,
+                  kClusterVoxels * size,
+                  result);
   return result;
 }
 
