@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <thread>
 #include <vector>
 
 namespace pcl {
@@ -13,17 +15,26 @@ namespace nurbs {
 /** Items per chunk: fixed, so that sums do not depend on the number of threads. */
 constexpr std::size_t kChunk = 256;
 
-/** Call work(begin, end, chunk) for all chunks of a range, in several threads. */
+/** Call work(begin, end, chunk) for all chunks of a range, in several threads.
+ *
+ * Threads are started for each call (some 20 us) rather than kept: OpenMP's wait for
+ * work by spinning, which on a busy machine costs more than the work itself. */
 template <typename Work>
 void
 forChunks(std::size_t size, int threads, Work work)
 {
-  const auto chunks = static_cast<std::ptrdiff_t>((size + kChunk - 1) / kChunk);
-#pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
-  for (std::ptrdiff_t c = 0; c < chunks; ++c) {
-    const std::size_t begin = static_cast<std::size_t>(c) * kChunk;
-    work(begin, std::min(begin + kChunk, size), static_cast<std::size_t>(c));
-  }
+  const std::size_t chunks = (size + kChunk - 1) / kChunk;
+  std::atomic<std::size_t> next{0};
+  const auto run = [&] {
+    for (std::size_t c = next++; c < chunks; c = next++)
+      work(c * kChunk, std::min((c + 1) * kChunk, size), c);
+  };
+  std::vector<std::thread> others;
+  for (std::size_t i = 1; i < std::min(static_cast<std::size_t>(threads), chunks); ++i)
+    others.emplace_back(run);
+  run();
+  for (std::thread& other : others)
+    other.join();
 }
 
 /** Sum of add(i, partial) over a range. */

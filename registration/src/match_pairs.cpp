@@ -15,6 +15,8 @@ namespace {
 /** A pair is looked up again when its point has moved by so many voxels: the iteration
  * ends with many small steps. */
 constexpr double kStaleMove = 0.05;
+/** The same for a point that found nothing, which is the most costly thing to find. */
+constexpr double kStaleMiss = 0.4;
 /** Thickness of a plane in Generalized ICP, as a variance relative to its extent. */
 constexpr double kPlaneThickness = 1e-3;
 /** Standard deviation over median of absolute values: a normal distribution in one
@@ -91,11 +93,12 @@ MatchPairs::makeTerm(std::size_t i,
 void
 MatchPairs::update(const Eigen::Isometry3d& pose, bool keep_pairs)
 {
-  const double stale = kStaleMove * map_.options().voxel_size;
+  const double size = map_.options().voxel_size;
   const auto work = [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d place = pose * scan_[i].cast<double>();
       MatchPair& pair = pairs_[i];
+      const double stale = size * (pair.found ? kStaleMove : kStaleMiss);
       if (!keep_pairs && !((place - pair.place).squaredNorm() < stale * stale))
         lookUp(place, pair);
       if (pair.found)

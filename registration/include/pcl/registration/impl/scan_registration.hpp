@@ -88,7 +88,7 @@ nurbs::MatchOptions
 ScanRegistration<PointT>::matchOptions() const
 {
   // So many voxels reach far enough for a rough guess and stay quick to search.
-  constexpr double kDefaultReach = 4.0;
+  constexpr double kDefaultReach = 2.0;
   nurbs::MatchOptions options = options_;
   options.max_iterations = max_iterations_;
   options.max_distance =
