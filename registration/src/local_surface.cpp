@@ -14,6 +14,8 @@ constexpr double kMinPoints = 6.0;
 constexpr double kMaxThickness = 0.03;
 /** ... and at least so much across the longest extent: one ring is no plane. */
 constexpr double kMinWidth = 0.03;
+/** An edge of two planes has 0.08 of its variance across, a ball a third. */
+constexpr double kMinScatter = 0.12;
 
 } // namespace
 
@@ -30,6 +32,7 @@ localSurface(const PointMoments& moments)
   const double total = variance.sum();
   if (variance[0] <= kMaxThickness * total && variance[1] >= kMinWidth * total)
     surface.normal = solver.eigenvectors().col(0);
+  surface.scattered = variance[0] >= kMinScatter * total;
   return surface;
 }
 

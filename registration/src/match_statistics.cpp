@@ -144,7 +144,7 @@ describeMatch(const MatchPairs& pairs,
       const Tangent row = jacobian.transpose() * normal;
       sums.support += row * row.transpose();
     }
-    else {
+    else if (pair.surface.scattered) {
       sums.support += options.scatter_weight * jacobian.transpose() * jacobian;
     }
     const double weight = kernel.weight(term.square);

@@ -25,13 +25,14 @@ alignScene(const Scene& scene,
            const Eigen::Isometry3d& truth,
            double noise,
            MatchMetric metric,
-           std::mt19937& random)
+           std::mt19937& random,
+           double voxel_size = 0.7)
 {
   const auto first = sampleScene(scene, 8000, noise, random);
   const auto second = sampleScene(scene, 4000, noise, random);
   ScanRegistration<PointXYZ> registration;
   registration.setMetric(metric);
-  registration.setVoxelSize(0.7);
+  registration.setVoxelSize(voxel_size);
   registration.setInputTarget(
       cloudSeenFrom<PointXYZ>(Eigen::Isometry3d::Identity(), first));
   registration.setInputSource(cloudSeenFrom<PointXYZ>(truth, second));
@@ -50,7 +51,7 @@ meanNees(const Scene& scene, double noise, MatchMetric metric, int runs)
   for (int i = 0; i < runs; ++i) {
     std::mt19937 random(1000 + i);
     const Eigen::Isometry3d truth = randomMotion(0.1, 0.01, random);
-    const MatchResult result = alignScene(scene, truth, noise, metric, random);
+    const MatchResult result = alignScene(scene, truth, noise, metric, random, 0.3);
     const Tangent error = logarithm(result.pose.inverse() * truth);
     EXPECT_LT((result.covariance * result.information - TangentMatrix::Identity())
                   .cwiseAbs()
@@ -67,7 +68,7 @@ TEST(MatchCovariance, NormalisedErrorIsWithinIts95PercentInterval)
   // The sum over runs is chi-square with 6 runs degrees of freedom, nearly normal.
   const double half_width = 1.96 * std::sqrt(2.0 * 6.0 * kRuns) / kRuns;
   EXPECT_NEAR(
-      meanNees(street(), 0.03, MatchMetric::PointToPlane, kRuns), 6.0, half_width);
+      meanNees(room(), 0.015, MatchMetric::PointToPlane, kRuns), 6.0, half_width);
 }
 
 TEST(MatchCovariance, GrowsWithTheNoise)
@@ -75,9 +76,9 @@ TEST(MatchCovariance, GrowsWithTheNoise)
   std::mt19937 random(1);
   const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
   const MatchResult quiet =
-      alignScene(street(), still, 0.01, MatchMetric::PointToPlane, random);
+      alignScene(room(), still, 0.005, MatchMetric::PointToPlane, random, 0.3);
   const MatchResult noisy =
-      alignScene(street(), still, 0.04, MatchMetric::PointToPlane, random);
+      alignScene(room(), still, 0.02, MatchMetric::PointToPlane, random, 0.3);
   const double ratio = std::sqrt(noisy.covariance.trace() / quiet.covariance.trace());
   EXPECT_GT(ratio, 2.5);
   EXPECT_LT(ratio, 6.0);

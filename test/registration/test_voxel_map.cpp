@@ -66,8 +66,9 @@ TEST(VoxelMap, NearestIsThatOfAllPointsAtAnyDistance)
           best = std::min(best, (point - place).norm());
         const auto found = map.nearest(place, reach);
         ASSERT_EQ(found.has_value(), best < reach);
-        if (found)
+        if (found) {
           EXPECT_NEAR((*found - place).norm(), best, 1e-5);
+        }
       }
   }
 }
@@ -117,14 +118,15 @@ TEST(VoxelMap, ForgetsWhatIsFar)
   const Eigen::Vector3d center(5.0, 0.0, 0.0);
   map.removeFarFrom(center, 10.0);
   const double slack = map.options().voxel_size; // voxels go as a whole
-  std::size_t near = 0;
   for (const Eigen::Vector3d& point : points) {
     const double distance = (point - center).norm();
     const auto found = map.nearest(point, 0.01);
-    if (distance < 10.0 - slack)
-      EXPECT_TRUE(found && (*found - point).norm() < 1e-5) << ++near;
-    if (distance > 10.0 + slack)
+    if (distance < 10.0 - slack) {
+      EXPECT_TRUE(found && (*found - point).norm() < 1e-5);
+    }
+    if (distance > 10.0 + slack) {
       EXPECT_FALSE(found);
+    }
   }
   EXPECT_TRUE(map.insert(points[0]));
   EXPECT_TRUE(map.nearest(points[0], 0.01));

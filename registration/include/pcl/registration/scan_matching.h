@@ -28,12 +28,12 @@ struct MatchOptions {
   RobustKernel kernel;
   /** Farther pairs are none, metres. */
   double max_distance = 1.0;
-  int max_iterations = 50;
+  int max_iterations = 80;
   /** A step below both ends the iteration: metres, radians. */
-  double translation_epsilon = 1e-4;
-  double rotation_epsilon = 1e-5;
+  double translation_epsilon = 2e-4;
+  double rotation_epsilon = 2e-5;
   /** Weight of pairs without a plane in PointToPlane, 0 to leave them out. */
-  double scatter_weight = 0.1;
+  double scatter_weight = 0.3;
   /** A direction is supported when the mean square by which a motion along it moves
    * the points off their surfaces, relative to the motion's own, is more than this. */
   double min_support = 2e-3;

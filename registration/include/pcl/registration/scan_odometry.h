@@ -30,7 +30,7 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   /** One point of the scan per voxel of this size goes into the map ... */
   double map_spacing = 0.4;
   /** ... and one per voxel of this size is matched. */
-  double match_spacing = 1.2;
+  double match_spacing = 0.8;
   /** Alignment; its maximal distance follows the motion. */
   MatchOptions match;
   MotionThresholdOptions threshold;
