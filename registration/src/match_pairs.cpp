@@ -13,8 +13,8 @@ namespace nurbs {
 namespace {
 
 /** A pair is looked up again when its point has moved by so many voxels: the iteration
- * ends with many small steps. */
-constexpr double kStaleMove = 0.05;
+ * ends with many small steps. More than this leaves a bias towards the guess. */
+constexpr double kStaleMove = 0.01;
 /** The same for a point that found nothing, which is the most costly thing to find. */
 constexpr double kStaleMiss = 0.4;
 /** Thickness of a plane in Generalized ICP, as a variance relative to its extent. */

@@ -83,9 +83,11 @@ gradientScatter(const MatchPairs& pairs,
   TangentMatrix scatter = TangentMatrix::Zero();
   for (const Tangent& gradient : gradients)
     scatter += gradient * gradient.transpose();
-  // Six parameters were fitted to the gradients' sum.
+  // Six parameters were fitted to the gradients' sum, and the mean of the inverse of an
+  // estimated 6 x 6 scatter is too large (Hotelling): both count with few cells only.
   const auto count = static_cast<double>(gradients.size());
-  return scatter * (count / std::max(count - 6.0, 1.0));
+  return scatter * (count / std::max(count - 6.0, 1.0)) *
+         ((count - 1.0) / std::max(count - 8.0, 1.0));
 }
 
 /** Covariance and information from curvature and scatter, in the directions that the

@@ -26,7 +26,7 @@ constexpr double kKernelSigmas = 3.0;
 constexpr double kFirstWidth = 1.0;
 constexpr double kShrink = 0.6;
 /** Cells of the cluster-robust covariance, in voxels. */
-constexpr double kClusterVoxels = 4.0;
+constexpr double kClusterVoxels = 2.0;
 
 struct NormalEquations {
   TangentMatrix matrix = TangentMatrix::Zero();
@@ -143,7 +143,6 @@ matchScan(const VoxelMap& map,
                        step.tail<3>().norm() < options.rotation_epsilon;
   }
   pairs.update(result.pose, false);
-  result.converged = result.converged && pairs.found() >= kMinPairs;
   if (pairs.found() >= kMinPairs)
     describeMatch(pairs,
                   scan,
@@ -151,6 +150,10 @@ matchScan(const VoxelMap& map,
                   options,
                   kClusterVoxels * size,
                   result);
+  if (result.degeneracy.unsupported == 6) { // too few pairs, or all with one point
+    result.converged = false;
+    result.covariance.setZero();
+  }
   return result;
 }
 

@@ -73,8 +73,7 @@ limitFor(const std::string& name, MatchMetric metric, double noise, double overl
 {
   const double size = name == "room" ? 0.25 : 1.0;
   const double kind = name == "columns" ? 2.0 : 1.0;
-  const double points =
-      metric == MatchMetric::PointToPoint ? (overlap < 1.0 ? 10.0 : 4.0) : 1.0;
+  const double points = metric == MatchMetric::PointToPoint ? 10.0 : 1.0;
   Tangent limit;
   limit.head<3>().setConstant(kind * points * (0.015 * size + 0.1 * noise));
   limit.tail<3>().setConstant(kind * points * 0.004);
