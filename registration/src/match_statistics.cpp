@@ -150,8 +150,11 @@ describeMatch(const MatchPairs& pairs,
       sums.support += options.scatter_weight * jacobian.transpose() * jacobian;
     }
     const double weight = kernel.weight(term.square);
-    sums.curvature +=
-        kernel.curvature(term.square) * (jacobian.transpose() * term.metric * jacobian);
+    // A nearest point on an edge goes along with the scan: its distance holds nothing.
+    if (options.metric != MatchMetric::PointToPlane || pair.surface.flat() ||
+        pair.surface.scattered)
+      sums.curvature += kernel.curvature(term.square) *
+                        (jacobian.transpose() * term.metric * jacobian);
     sums.squared_range += scan[i].cast<double>().squaredNorm();
     sums.weight += weight;
     sums.weighted_square += weight * term.square;

@@ -29,24 +29,28 @@ truePose(double time, double turn = 0.02)
 
 /** Radians per scan; enough to see what skewing does. */
 double
-turnOf(bool moving)
+turnOf(bool turning)
 {
-  return moving ? 0.15 : 0.02;
+  return turning ? 0.15 : 0.02;
 }
 
 /** A sweep around a pose; with \a moving the sensor goes on while it measures. */
 ScanPoints
-scanAt(double time, bool moving, std::mt19937& random, std::vector<float>& times)
+scanAt(double time,
+       bool moving,
+       bool turning,
+       std::mt19937& random,
+       std::vector<float>& times)
 {
   ScanPoints points;
   times.clear();
   for (const Eigen::Vector3d& world : sampleScene(street(), 40000, 0.01, random)) {
-    Eigen::Vector3d seen = truePose(time, turnOf(moving)).inverse() * world;
+    Eigen::Vector3d seen = truePose(time, turnOf(turning)).inverse() * world;
     float moment = 0.5F;
     // The moment depends on the azimuth at that moment: a few steps settle it.
     for (int i = 0; moving && i < 4; ++i) {
       moment = timesByAzimuth({seen.cast<float>()})[0];
-      seen = truePose(time + moment - 0.5, turnOf(moving)).inverse() * world;
+      seen = truePose(time + moment - 0.5, turnOf(turning)).inverse() * world;
     }
     points.emplace_back(seen.cast<float>());
     times.push_back(moment);
@@ -66,7 +70,7 @@ driveError(bool moving, bool deskewed, int threads, Eigen::Isometry3d& last)
   double worst = 0.0;
   for (int i = 0; i < 12; ++i) {
     std::vector<float> times;
-    const ScanPoints points = scanAt(i, moving, random, times);
+    const ScanPoints points = scanAt(i, moving && i > 0, moving, random, times);
     const OdometryResult result =
         odometry.process(points, deskewed ? times : std::vector<float>());
     EXPECT_TRUE(result.tracked);
@@ -91,7 +95,7 @@ TEST(ScanOdometry, DeskewingHelps)
 {
   Eigen::Isometry3d last;
   const double with = driveError(true, true, 1, last);
-  EXPECT_LT(with, 0.15); // the first scan has no velocity to be deskewed by
+  EXPECT_LT(with, 0.2); // the first motion is not known while it happens
   EXPECT_LT(with, driveError(true, false, 1, last));
 }
 
@@ -113,7 +117,7 @@ TEST(ScanOdometry, KeyframesByWayAndByHook)
   std::mt19937 random(7);
   for (int i = 0; i < 9; ++i) {
     std::vector<float> times;
-    const ScanPoints points = scanAt(i, false, random, times);
+    const ScanPoints points = scanAt(i, false, false, random, times);
     if (odometry.process(points).keyframe)
       keyframes.push_back(i);
     if (hooked.process(points).keyframe)
@@ -130,7 +134,7 @@ TEST(ScanOdometry, BadScansLeaveItOnItsWay)
   std::vector<float> times;
   EXPECT_FALSE(odometry.process({}).tracked); // before anything
   for (int i = 0; i < 4; ++i)
-    EXPECT_TRUE(odometry.process(scanAt(i, false, random, times)).tracked);
+    EXPECT_TRUE(odometry.process(scanAt(i, false, false, random, times)).tracked);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(odometry.process({}).tracked);
   const OdometryResult numberless = odometry.process(ScanPoints(100, {nan, nan, nan}));
@@ -138,7 +142,7 @@ TEST(ScanOdometry, BadScansLeaveItOnItsWay)
   EXPECT_FALSE(numberless.keyframe);
   // The prediction goes on, so the next scan is found again.
   EXPECT_LT((numberless.pose.translation() - truePose(5).translation()).norm(), 0.2);
-  const OdometryResult back = odometry.process(scanAt(6, false, random, times));
+  const OdometryResult back = odometry.process(scanAt(6, false, false, random, times));
   EXPECT_TRUE(back.tracked);
   EXPECT_LT((back.pose.translation() - truePose(6).translation()).norm(), 0.05);
   EXPECT_THROW(odometry.process(ScanPoints(3), {0.0F}), std::invalid_argument);
@@ -151,7 +155,7 @@ TEST(ScanOdometry, StandsStillAndForgetsWhatIsFar)
   ScanOdometry odometry(options);
   std::mt19937 random(7);
   std::vector<float> times;
-  const ScanPoints scan = scanAt(0, false, random, times);
+  const ScanPoints scan = scanAt(0, false, false, random, times);
   for (int i = 0; i < 5; ++i)
     EXPECT_LT(odometry.process(scan).pose.translation().norm(), 5e-3);
   for (const Eigen::Vector3d& point : odometry.localMap())

@@ -69,7 +69,7 @@ errorOf(const Eigen::Isometry3d& truth, const Eigen::Isometry3d& pose)
 /** Allowed errors. Nearest points lie somewhere on the surface: their spacing is noise.
  * Planes through pieces of a column lie a little inside of it. */
 Tangent
-limitFor(const std::string& name, MatchMetric metric, double noise, double overlap)
+limitFor(const std::string& name, MatchMetric metric, double noise)
 {
   const double size = name == "room" ? 0.25 : 1.0;
   const double kind = name == "columns" ? 2.0 : 1.0;
@@ -101,7 +101,7 @@ TEST_P(RegistrationAccuracy, FindsTheMotion)
     registration.align(aligned, guess.matrix().cast<float>());
     ASSERT_TRUE(registration.hasConverged()) << "seed " << seed;
     const Tangent error = errorOf(problem.truth, registration.getResult().pose);
-    const Tangent limit = limitFor(name, metric, noise, overlap);
+    const Tangent limit = limitFor(name, metric, noise);
     EXPECT_LT(error.head<3>().norm(), limit[0]) << "seed " << seed;
     EXPECT_LT(error.tail<3>().norm(), limit[3]) << "seed " << seed;
     EXPECT_TRUE(aligned[0].getVector3fMap().isApprox(

@@ -36,7 +36,7 @@ struct MatchOptions {
   double scatter_weight = 0.3;
   /** A direction is supported when the mean square by which a motion along it moves
    * the points off their surfaces, relative to the motion's own, is more than this. */
-  double min_support = 2e-3;
+  double min_support = 1e-3;
   /** The result does not depend on it. */
   int threads = 1;
 };
