@@ -3,13 +3,14 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Boost 1.74 REQUIRED COMPONENTS program_options)
 find_package(Ceres 2.1 REQUIRED)
-find_package(PCL 1.12 REQUIRED COMPONENTS common search io QUIET)
+find_package(PCL 1.12 REQUIRED COMPONENTS common search io registration QUIET)
 find_package(nlohmann_json 3.9 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo) # plots of the tools
 find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(Threads REQUIRED)
 
 include(PclNurbsPcl)
-pcl_nurbs_import_pcl(common search io)
+pcl_nurbs_import_pcl(common search io registration)

@@ -82,7 +82,7 @@ private:
   Eigen::Vector2d
   fromCell(std::size_t k, const Eigen::Vector2d& lattice) const
   {
-    const Eigen::Vector2d foot = surface_.parameters.col(static_cast<Eigen::Index>(k));
+    Eigen::Vector2d foot = surface_.parameters.col(static_cast<Eigen::Index>(k));
     if (geometry_.projection == GridProjection::lattice)
       return foot;
     const int cell = surface_.cells[k];

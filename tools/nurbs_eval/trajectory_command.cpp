@@ -170,7 +170,8 @@ segmentPlot(const Evaluation& evaluation)
                 "error (% of the length; 0.01 deg/m)",
                 false,
                 {{"translation", {}}, {"rotation", {}}}};
-  for (double length = 100.0; length <= 800.0; length += 100.0) {
+  for (int hundreds = 1; hundreds <= 8; ++hundreds) {
+    const double length = 100.0 * hundreds;
     const KittiErrors errors = meanErrors(evaluation.segments, length);
     if (errors.segments == 0)
       continue;

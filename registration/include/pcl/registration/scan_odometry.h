@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#pragma once
+
+#include <pcl/registration/motion_threshold.h>
+#include <pcl/registration/scan_matching.h>
+
+#include <functional>
+#include <memory>
+
+namespace pcl {
+namespace nurbs {
+
+/** \brief Parameters of ScanOdometry; metres and radians.
+ * \ingroup registration */
+struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
+  /** Points nearer or farther are dropped. */
+  double min_range = 2.0;
+  double max_range = 100.0;
+  /** Rise of each point, for a laser whose calibration is off; see
+   * correctVerticalAngle(). */
+  double vertical_angle = 0.0;
+  /** Undo the sensor's motion during a scan, where points have times. */
+  bool deskew = true;
+  /** Moment of the scan, 0 .. 1, that its pose is for. */
+  double reference_time = 0.5;
+  /** Local map. */
+  VoxelMapOptions map;
+  /** One point of the scan per voxel of this size goes into the map ... */
+  double map_spacing = 0.4;
+  /** ... and one per voxel of this size is matched. */
+  double match_spacing = 0.8;
+  /** Alignment; its maximal distance follows the motion. */
+  MatchOptions match;
+  MotionThresholdOptions threshold;
+  /** A keyframe is made after so much way ... */
+  double keyframe_distance = 5.0;
+  /** ... or so much turning. */
+  double keyframe_angle = 0.35;
+  /** The result does not depend on it. */
+  int threads = 2;
+
+  /** \brief For turning lasers, in any surroundings (this is the default). */
+  static OdometryOptions
+  lidar();
+
+  /** \brief For depth cameras in rooms. */
+  static OdometryOptions
+  rgbd();
+};
+
+/** \brief What became of a scan. */
+struct OdometryResult {
+  /** From the sensor's frame to that of the first scan. */
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  /** Whether the pose was measured; else it is the prediction. */
+  bool tracked = false;
+  bool keyframe = false;
+  /** Largest distance of pairs that was used. */
+  double threshold = 0.0;
+  /** The alignment: covariance, degeneracy, residuals. */
+  MatchResult match;
+  /** The scan, cropped, deskewed and thinned to OdometryOptions::map_spacing, in the
+   * sensor's frame. */
+  ScanPoints points;
+};
+
+/** \brief Tracks a range sensor by aligning each scan with a map of the last ones.
+ *
+ * Preprocessing, prediction with constant velocity, alignment (matchScan()) with pairs
+ * no farther apart than the prediction was off lately, and insertion into a local map
+ * that forgets what is out of range: the pipeline of KISS-ICP (Vizzo et al., RA-L 2023)
+ * with planes where there are planes. Scans that cannot be aligned leave the map as it
+ * is and the sensor on its predicted way; after several of those the map is begun anew
+ * there.
+ *
+ * Not to be called from several threads at a time.
+ * \ingroup registration */
+class PCL_NURBS_REGISTRATION_EXPORT ScanOdometry {
+public:
+  /** \brief Says whether a tracked scan shall be a keyframe, given the motion since the
+   * last one. */
+  using KeyframeDecision =
+      std::function<bool(const OdometryResult&, const Eigen::Isometry3d& since_last)>;
+
+  /** \throws std::invalid_argument when an option makes no sense */
+  explicit ScanOdometry(const OdometryOptions& options = OdometryOptions::lidar());
+
+  ~ScanOdometry();
+
+  /** \brief Replace the decision by way and angle. */
+  void
+  setKeyframeDecision(KeyframeDecision decision);
+
+  /** \brief Process the next scan.
+   * \param[in] points in the sensor's frame; those that are not finite are dropped
+   * \param[in] times of the points within the scan, 0 .. 1; empty when it needs no
+   * deskewing
+   * \throws std::invalid_argument when there are times, but not one per point */
+  OdometryResult
+  process(const ScanPoints& points, const std::vector<float>& times = {});
+
+  /** \brief Points of the local map, in the frame of the first scan. */
+  std::vector<Eigen::Vector3d>
+  localMap() const;
+
+private:
+  ScanPoints
+  prepare(const ScanPoints& points, const std::vector<float>& times) const;
+
+  void
+  track(OdometryResult& result);
+
+  void
+  insert(const OdometryResult& result);
+
+  void
+  decideKeyframe(OdometryResult& result);
+
+  OdometryOptions options_;
+  KeyframeDecision decision_;
+  VoxelMap map_;
+  MotionThreshold threshold_;
+  Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d velocity_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d keyframe_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d pruned_at_ = Eigen::Vector3d::Zero();
+  bool any_keyframe_ = false;
+  int lost_ = 0;
+};
+
+} // namespace nurbs
+} // namespace pcl

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#pragma once
+
+#include <pcl/registration/voxel_map.h>
+
+namespace pcl {
+namespace nurbs {
+
+/** What a target looks like around a place. */
+struct LocalSurface {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); // zero where it is not flat
+  /** Whether it has depth in all directions, as leaves have: neither a plane nor the
+   * edge between two, along which points may slide. */
+  bool scattered = false;
+
+  bool
+  flat() const
+  {
+    return !normal.isZero(0.0);
+  }
+};
+
+/** The plane through points with these moments, when they lie on one. */
+LocalSurface
+localSurface(const PointMoments& moments);
+
+} // namespace nurbs
+} // namespace pcl

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "match_pairs.h"
+
+#include "chunked_sum.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+/** A pair is looked up again when its point has moved by so many voxels: the iteration
+ * ends with many small steps. More than this leaves a bias towards the guess. */
+constexpr double kStaleMove = 0.01;
+/** The same for a point that found nothing, which is the most costly thing to find. */
+constexpr double kStaleMiss = 0.4;
+/** Thickness of a plane in Generalized ICP, as a variance relative to its extent. */
+constexpr double kPlaneThickness = 1e-3;
+/** Standard deviation over median of absolute values: a normal distribution in one
+ * dimension. */
+constexpr double kMedianToSigma = 1.4826;
+
+} // namespace
+
+MatchPairs::MatchPairs(const VoxelMap& map,
+                       const ScanPoints& scan,
+                       const ScanPoints& normals,
+                       const MatchOptions& options)
+    : map_(map),
+      scan_(scan),
+      normals_(normals),
+      options_(options),
+      pairs_(scan.size()),
+      terms_(scan.size())
+{
+}
+
+void
+MatchPairs::lookUp(const Eigen::Vector3d& place, MatchPair& pair) const
+{
+  pair.place = place;
+  const auto nearest = map_.nearest(place, options_.max_distance);
+  pair.found = nearest.has_value();
+  if (!pair.found)
+    return;
+  pair.target = *nearest;
+  pair.surface = localSurface(map_.surface(*nearest));
+}
+
+Eigen::Matrix3d
+MatchPairs::metric(std::size_t i, const Eigen::Vector3d& normal) const
+{
+  const Eigen::Matrix3d plane = normal * normal.transpose();
+  switch (options_.metric) {
+  case MatchMetric::PointToPoint:
+    break;
+  case MatchMetric::PointToPlane:
+    if (normal.isZero(0.0))
+      return options_.scatter_weight * Eigen::Matrix3d::Identity();
+    return plane;
+  case MatchMetric::PlaneToPlane: {
+    const Eigen::Vector3d own = normals_[i].cast<double>();
+    const Eigen::Matrix3d both =
+        2.0 * Eigen::Matrix3d::Identity() -
+        (1.0 - kPlaneThickness) * (plane + own * own.transpose());
+    // So scaled that two equal planes have the metric of PointToPlane.
+    return 2.0 * kPlaneThickness * both.inverse();
+  }
+  }
+  return Eigen::Matrix3d::Identity();
+}
+
+PairTerm
+MatchPairs::makeTerm(std::size_t i,
+                     const Eigen::Vector3d& place,
+                     const Eigen::Matrix3d& rotation) const
+{
+  const MatchPair& pair = pairs_[i];
+  // On a plane the mean of all its points has less noise than the nearest one.
+  const bool plane =
+      options_.metric == MatchMetric::PointToPlane && pair.surface.flat();
+  PairTerm term;
+  term.residual =
+      rotation.transpose() * (place - (plane ? pair.surface.mean : pair.target));
+  term.metric = metric(i, rotation.transpose() * pair.surface.normal);
+  term.square = term.residual.dot(term.metric * term.residual);
+  return term;
+}
+
+void
+MatchPairs::update(const Eigen::Isometry3d& pose, bool keep_pairs)
+{
+  const double size = map_.options().voxel_size;
+  const auto work = [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d place = pose * scan_[i].cast<double>();
+      MatchPair& pair = pairs_[i];
+      const double stale = size * (pair.found ? kStaleMove : kStaleMiss);
+      if (!keep_pairs && !((place - pair.place).squaredNorm() < stale * stale))
+        lookUp(place, pair);
+      if (pair.found)
+        terms_[i] = makeTerm(i, place, pose.linear());
+    }
+  };
+  forChunks(scan_.size(), options_.threads, work);
+}
+
+std::size_t
+MatchPairs::found() const
+{
+  return static_cast<std::size_t>(std::count_if(
+      pairs_.begin(), pairs_.end(), [](const MatchPair& pair) { return pair.found; }));
+}
+
+double
+MatchPairs::scale() const
+{
+  std::vector<double> squares;
+  squares.reserve(pairs_.size());
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    if (pairs_[i].found)
+      squares.push_back(terms_[i].square);
+  if (squares.empty())
+    return 0.0;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return kMedianToSigma * std::sqrt(*middle);
+}
+
+} // namespace nurbs
+} // namespace pcl

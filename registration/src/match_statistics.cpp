@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "match_statistics.h"
+
+#include "chunked_sum.h"
+#include "voxel_key.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <unordered_map>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+struct DescriptionSums {
+  TangentMatrix support = TangentMatrix::Zero();
+  TangentMatrix curvature = TangentMatrix::Zero();
+  double squared_range = 0.0;
+  double weight = 0.0;
+  double weighted_square = 0.0;
+  double count = 0.0;
+
+  void
+  operator+=(const DescriptionSums& other)
+  {
+    support += other.support;
+    curvature += other.curvature;
+    squared_range += other.squared_range;
+    weight += other.weight;
+    weighted_square += other.weighted_square;
+    count += other.count;
+  }
+};
+
+/** Rows and columns of rotations divided by a length. */
+TangentMatrix
+scaled(TangentMatrix matrix, double scale)
+{
+  matrix.rightCols<3>() /= scale;
+  matrix.bottomRows<3>() /= scale;
+  return matrix;
+}
+
+Degeneracy
+degeneracyOf(const DescriptionSums& sums, double min_support)
+{
+  Degeneracy result;
+  result.scale = std::sqrt(sums.squared_range / sums.count);
+  const Eigen::SelfAdjointEigenSolver<TangentMatrix> solver(
+      scaled(sums.support / sums.count, result.scale));
+  result.directions = solver.eigenvectors();
+  result.support = solver.eigenvalues().cwiseMax(0.0);
+  result.unsupported = static_cast<int>((result.support.array() < min_support).count());
+  return result;
+}
+
+/** Gradients of the loss, summed per cell of the target: their scatter is that of the
+ * gradient's error when cells err independently. */
+TangentMatrix
+gradientScatter(const MatchPairs& pairs,
+                const ScanPoints& scan,
+                const RobustKernel& kernel,
+                double cluster_size)
+{
+  std::vector<Tangent> gradients;
+  std::unordered_map<std::uint64_t, std::size_t> cells;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const MatchPair& pair = pairs.pairs()[i];
+    const auto cell = voxelCell(pair.target, 1.0 / cluster_size);
+    if (!pair.found || !cell)
+      continue;
+    const auto known = cells.emplace(voxelKey(*cell), gradients.size());
+    if (known.second)
+      gradients.emplace_back(Tangent::Zero());
+    const PairTerm& term = pairs.term(i);
+    gradients[known.first->second] += kernel.weight(term.square) *
+                                      pointJacobian(scan[i]).transpose() *
+                                      (term.metric * term.residual);
+  }
+  TangentMatrix scatter = TangentMatrix::Zero();
+  for (const Tangent& gradient : gradients)
+    scatter += gradient * gradient.transpose();
+  // Six parameters were fitted to the gradients' sum, and the mean of the inverse of an
+  // estimated 6 x 6 scatter is too large (Hotelling): both count with few cells only.
+  const auto count = static_cast<double>(gradients.size());
+  return scatter * (count / std::max(count - 6.0, 1.0)) *
+         ((count - 1.0) / std::max(count - 8.0, 1.0));
+}
+
+/** Covariance and information from curvature and scatter, in the directions that the
+ * surroundings support. */
+void
+setUncertainty(const TangentMatrix& curvature,
+               const TangentMatrix& scatter,
+               MatchResult& result)
+{
+  const Degeneracy& degeneracy = result.degeneracy;
+  const int known = 6 - degeneracy.unsupported;
+  Eigen::MatrixXd back = degeneracy.directions; // to tangents in metres and radians
+  back.bottomRows<3>() /= degeneracy.scale;
+  const Eigen::MatrixXd basis = back.rightCols(known);
+  const Eigen::MatrixXd inverse = (basis.transpose() * curvature * basis).inverse();
+  const Eigen::MatrixXd reduced =
+      inverse * (basis.transpose() * scatter * basis) * inverse;
+  const Eigen::MatrixXd unknown = back.leftCols(degeneracy.unsupported);
+  result.covariance = basis * reduced * basis.transpose() +
+                      kUnsupportedVariance * unknown * unknown.transpose();
+  Eigen::MatrixXd dual = degeneracy.directions.rightCols(known);
+  dual.bottomRows<3>() *= degeneracy.scale;
+  result.information = dual * reduced.inverse() * dual.transpose();
+}
+
+} // namespace
+
+Eigen::Matrix<double, 3, 6>
+pointJacobian(const Eigen::Vector3f& point)
+{
+  const Eigen::Vector3d p = point.cast<double>();
+  Eigen::Matrix<double, 3, 6> jacobian;
+  jacobian << 1.0, 0.0, 0.0, 0.0, p.z(), -p.y(), //
+      0.0, 1.0, 0.0, -p.z(), 0.0, p.x(),         //
+      0.0, 0.0, 1.0, p.y(), -p.x(), 0.0;
+  return jacobian;
+}
+
+void
+describeMatch(const MatchPairs& pairs,
+              const ScanPoints& scan,
+              const RobustKernel& kernel,
+              const MatchOptions& options,
+              double cluster_size,
+              MatchResult& result)
+{
+  const auto add = [&](std::size_t i, DescriptionSums& sums) {
+    const MatchPair& pair = pairs.pairs()[i];
+    if (!pair.found)
+      return;
+    const PairTerm& term = pairs.term(i);
+    const Eigen::Matrix<double, 3, 6> jacobian = pointJacobian(scan[i]);
+    const Eigen::Vector3d normal =
+        result.pose.linear().transpose() * pair.surface.normal;
+    if (pair.surface.flat()) {
+      const Tangent row = jacobian.transpose() * normal;
+      sums.support += row * row.transpose();
+    }
+    else if (pair.surface.scattered) {
+      sums.support += options.scatter_weight * jacobian.transpose() * jacobian;
+    }
+    const double weight = kernel.weight(term.square);
+    // A nearest point on an edge goes along with the scan: its distance holds nothing.
+    if (options.metric != MatchMetric::PointToPlane || pair.surface.flat() ||
+        pair.surface.scattered)
+      sums.curvature += kernel.curvature(term.square) *
+                        (jacobian.transpose() * term.metric * jacobian);
+    sums.squared_range += scan[i].cast<double>().squaredNorm();
+    sums.weight += weight;
+    sums.weighted_square += weight * term.square;
+    sums.count += 1.0;
+  };
+  const auto sums = chunkedSum<DescriptionSums>(scan.size(), options.threads, add);
+  result.correspondences = static_cast<std::size_t>(sums.count);
+  result.rmse = std::sqrt(sums.weighted_square / sums.weight);
+  result.degeneracy = degeneracyOf(sums, options.min_support);
+  setUncertainty(
+      sums.curvature, gradientScatter(pairs, scan, kernel, cluster_size), result);
+}
+
+} // namespace nurbs
+} // namespace pcl

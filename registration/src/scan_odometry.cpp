@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include <pcl/registration/scan_odometry.h>
+#include <pcl/registration/scan_preprocessing.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+/** Scans that may fail before the map is begun anew. */
+constexpr int kMostLost = 5;
+/** The map is cleared of far points after so much way, as a share of the range. */
+constexpr double kPruneShare = 0.05;
+
+void
+check(const OdometryOptions& options)
+{
+  if (!(options.min_range >= 0.0) || !(options.max_range > options.min_range))
+    throw std::invalid_argument("ScanOdometry: the ranges must be in order");
+  if (!(options.map_spacing > 0.0) || !(options.match_spacing > 0.0))
+    throw std::invalid_argument("ScanOdometry: spacings must be positive");
+  if (options.threads < 1)
+    throw std::invalid_argument("ScanOdometry: at least one thread is needed");
+}
+
+double
+angleOf(const Eigen::Isometry3d& motion)
+{
+  return Eigen::AngleAxisd(motion.linear()).angle();
+}
+
+} // namespace
+
+OdometryOptions
+OdometryOptions::lidar()
+{
+  return {};
+}
+
+OdometryOptions
+OdometryOptions::rgbd()
+{
+  OdometryOptions options;
+  options.min_range = 0.1;
+  options.max_range = 10.0;
+  options.deskew = false;
+  options.map.voxel_size = 0.06;
+  options.map.min_spacing = 0.012;
+  options.map_spacing = 0.015;
+  options.match_spacing = 0.06;
+  options.threshold.initial = 0.1;
+  options.threshold.min_motion = 0.01;
+  options.threshold.min_threshold = 0.05;
+  options.threshold.max_threshold = 0.3;
+  options.threshold.max_range = 3.0;
+  options.match.translation_epsilon = 1e-5;
+  options.keyframe_distance = 0.3;
+  return options;
+}
+
+ScanOdometry::ScanOdometry(const OdometryOptions& options)
+    : options_(options), map_(options.map), threshold_(options.threshold)
+{
+  check(options);
+  options_.match.threads = options.threads;
+  decision_ = [this](const OdometryResult&, const Eigen::Isometry3d& since) {
+    return since.translation().norm() >= options_.keyframe_distance ||
+           angleOf(since) >= options_.keyframe_angle;
+  };
+}
+
+ScanOdometry::~ScanOdometry() = default;
+
+void
+ScanOdometry::setKeyframeDecision(KeyframeDecision decision)
+{
+  decision_ = std::move(decision);
+}
+
+ScanPoints
+ScanOdometry::prepare(const ScanPoints& points, const std::vector<float>& times) const
+{
+  const auto nearest = static_cast<float>(options_.min_range * options_.min_range);
+  const auto farthest = static_cast<float>(options_.max_range * options_.max_range);
+  ScanPoints kept;
+  std::vector<float> kept_times;
+  kept.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float square = points[i].squaredNorm();
+    if (!(square >= nearest && square <= farthest)) // false for NaN
+      continue;
+    kept.push_back(points[i]);
+    if (!times.empty())
+      kept_times.push_back(times[i]);
+  }
+  if (options_.vertical_angle != 0.0)
+    correctVerticalAngle(kept, options_.vertical_angle);
+  if (options_.deskew && !times.empty())
+    deskew(kept, kept_times, velocity_, options_.reference_time, options_.threads);
+  return voxelSubsample(kept, options_.map_spacing);
+}
+
+OdometryResult
+ScanOdometry::process(const ScanPoints& points, const std::vector<float>& times)
+{
+  if (!times.empty() && times.size() != points.size())
+    throw std::invalid_argument("ScanOdometry: one time per point is needed");
+  OdometryResult result;
+  result.points = prepare(points, times);
+  result.pose = pose_ * velocity_;
+  if (map_.empty())
+    result.tracked = !result.points.empty();
+  else
+    track(result);
+  lost_ = result.tracked ? 0 : lost_ + 1;
+  if (lost_ > kMostLost && !result.points.empty())
+    map_.clear();
+  if (result.tracked || map_.empty())
+    insert(result);
+  decideKeyframe(result);
+  pose_ = result.pose;
+  return result;
+}
+
+void
+ScanOdometry::track(OdometryResult& result)
+{
+  MatchOptions match = options_.match;
+  match.max_distance = result.threshold = threshold_.value();
+  const ScanPoints scan = voxelSubsample(result.points, options_.match_spacing);
+  const Eigen::Isometry3d predicted = result.pose;
+  result.match = matchScan(map_, scan, {}, predicted, match);
+  result.tracked = result.match.converged;
+  if (!result.tracked)
+    return;
+  result.pose = result.match.pose;
+  threshold_.addDeviation(predicted.inverse() * result.pose);
+  velocity_ = orthonormal(pose_.inverse() * result.pose);
+}
+
+void
+ScanOdometry::insert(const OdometryResult& result)
+{
+  for (const Eigen::Vector3f& point : result.points)
+    map_.insert(result.pose * point.cast<double>());
+  const Eigen::Vector3d place = result.pose.translation();
+  if ((place - pruned_at_).norm() < kPruneShare * options_.max_range)
+    return;
+  map_.removeFarFrom(place, options_.max_range);
+  pruned_at_ = place;
+}
+
+void
+ScanOdometry::decideKeyframe(OdometryResult& result)
+{
+  if (!result.tracked)
+    return;
+  result.keyframe =
+      !any_keyframe_ || decision_(result, keyframe_.inverse() * result.pose);
+  if (!result.keyframe)
+    return;
+  any_keyframe_ = true;
+  keyframe_ = result.pose;
+}
+
+std::vector<Eigen::Vector3d>
+ScanOdometry::localMap() const
+{
+  return map_.points();
+}
+
+} // namespace nurbs
+} // namespace pcl
