@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include <pcl/mapping/simulator/primitive_tree.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+constexpr std::uint32_t kLeafSize = 3;
+constexpr int kBins = 16;
+constexpr std::size_t kDeepest = 128;
+
+double
+halfArea(const Eigen::AlignedBox3d& box)
+{
+  if (box.isEmpty())
+    return 0.0;
+  const Eigen::Vector3d s = box.sizes();
+  return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
+}
+
+/** Single precision, rounded so that nothing sticks out. */
+Eigen::Array3f
+roundedOut(const Eigen::Vector3d& corner, float towards)
+{
+  Eigen::Array3f result;
+  for (int k = 0; k < 3; ++k)
+    result(k) = std::nextafter(static_cast<float>(corner(k)), towards);
+  return result;
+}
+
+} // namespace
+
+class PrimitiveTree::Builder {
+public:
+  explicit Builder(PrimitiveTree& tree) : tree_(tree)
+  {
+    boxes_.reserve(tree.primitives_.size());
+    for (const Primitive& primitive : tree.primitives_)
+      boxes_.push_back(boundsOf(primitive));
+  }
+
+  void
+  build()
+  {
+    const auto count = static_cast<std::uint32_t>(boxes_.size());
+    tree_.order_.resize(count);
+    std::iota(tree_.order_.begin(), tree_.order_.end(), 0U);
+    if (count > 0) {
+      tree_.nodes_.emplace_back();
+      split(0, 0, count, 0);
+    }
+  }
+
+private:
+  void
+  split(std::size_t node, std::uint32_t first, std::uint32_t last, std::size_t depth)
+  {
+    Eigen::AlignedBox3d box;
+    Eigen::AlignedBox3d centers;
+    for (std::uint32_t i = first; i < last; ++i) {
+      box.extend(boxes_[tree_.order_[i]]);
+      centers.extend(boxes_[tree_.order_[i]].center());
+    }
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    tree_.nodes_[node].low = roundedOut(box.min(), -kInfinity);
+    tree_.nodes_[node].high = roundedOut(box.max(), kInfinity);
+    tree_.nodes_[node].first = first;
+    tree_.nodes_[node].count = last - first;
+    // Half of the depth is left to halving, which ends within 32 levels.
+    if (last - first <= kLeafSize)
+      return;
+    const std::uint32_t middle =
+        depth < kDeepest / 2 ? bestPlace(first, last, centers) : (first + last) / 2;
+    const std::size_t children = tree_.nodes_.size();
+    tree_.nodes_[node].first = static_cast<std::uint32_t>(children);
+    tree_.nodes_[node].count = 0;
+    tree_.nodes_.resize(children + 2);
+    split(children, first, middle, depth + 1);
+    split(children + 1, middle, last, depth + 1);
+  }
+
+  /** Order the range along the widest axis so that the two parts cost least. */
+  std::uint32_t
+  bestPlace(std::uint32_t first, std::uint32_t last, const Eigen::AlignedBox3d& centers)
+  {
+    Eigen::Index axis = 0;
+    const double width = centers.sizes().maxCoeff(&axis);
+    if (!(width > 0.0))
+      return (first + last) / 2;
+    const auto binOf = [&](std::uint32_t i) {
+      const double share = (boxes_[i].center()(axis) - centers.min()(axis)) / width;
+      return std::min(kBins - 1, static_cast<int>(share * kBins));
+    };
+    const int border = cheapestBorder(first, last, binOf);
+    const auto begin = tree_.order_.begin();
+    const auto middle =
+        std::stable_partition(begin + first, begin + last, [&](std::uint32_t i) {
+          return binOf(i) < border;
+        });
+    return static_cast<std::uint32_t>(middle - begin);
+  }
+
+  template <typename BinOf>
+  int
+  cheapestBorder(std::uint32_t first, std::uint32_t last, const BinOf& binOf) const
+  {
+    std::array<Eigen::AlignedBox3d, kBins> boxes;
+    std::array<int, kBins> counts{};
+    for (std::uint32_t i = first; i < last; ++i) {
+      const auto bin = static_cast<std::size_t>(binOf(tree_.order_[i]));
+      boxes[bin].extend(boxes_[tree_.order_[i]]);
+      ++counts[bin];
+    }
+    std::array<double, kBins> cost{};
+    const auto sweep = [&](int from, int to, int step, int to_border) {
+      Eigen::AlignedBox3d box;
+      int count = 0;
+      for (int bin = from; bin != to; bin += step) {
+        box.extend(boxes[static_cast<std::size_t>(bin)]);
+        count += counts[static_cast<std::size_t>(bin)];
+        cost[static_cast<std::size_t>(bin + to_border)] += halfArea(box) * count;
+      }
+    };
+    sweep(0, kBins - 1, 1, 1);
+    sweep(kBins - 1, 0, -1, 0);
+    // The first and the last bin hold a primitive each, so no border leaves a side
+    // empty.
+    return static_cast<int>(std::min_element(cost.begin() + 1, cost.end()) -
+                            cost.begin());
+  }
+
+  PrimitiveTree& tree_;
+  std::vector<Eigen::AlignedBox3d> boxes_;
+};
+
+PrimitiveTree::PrimitiveTree(std::vector<Primitive> primitives)
+    : primitives_(std::move(primitives))
+{
+  Builder(*this).build();
+}
+
+RayHit
+PrimitiveTree::cast(const Ray& ray, double near, double far) const
+{
+  RayHit hit{far, RayHit::kNothing};
+  if (nodes_.empty())
+    return hit;
+  // Not infinite, so that a ray within the side of a box gives 0 and not NaN.
+  const Eigen::Array3d along = ray.direction.array();
+  const Eigen::Array3d inverse = (along.abs() < 1e-290).select(1e-290, along).inverse();
+  const Eigen::Array3d origin = ray.origin.array();
+  // Distance at which the ray enters a box, infinity if it does not before the hit.
+  const auto entry = [&](const Node& node) {
+    const Eigen::Array3d one = (node.low.cast<double>() - origin) * inverse;
+    const Eigen::Array3d other = (node.high.cast<double>() - origin) * inverse;
+    const double in = std::max(one.min(other).maxCoeff(), near);
+    const double out = std::min(one.max(other).minCoeff(), hit.distance);
+    return in <= out ? in : std::numeric_limits<double>::infinity();
+  };
+  struct Pending {
+    std::uint32_t node;
+    double entry;
+  };
+  std::array<Pending, kDeepest> stack;
+  std::size_t size = 0;
+  stack[size++] = {0, entry(nodes_[0])};
+  while (size > 0) {
+    const Pending next = stack[--size];
+    if (!(next.entry < hit.distance))
+      continue;
+    const Node& node = nodes_[next.node];
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const double distance =
+          intersect(primitives_[order_[i]], ray, near, hit.distance);
+      if (distance < hit.distance)
+        hit = {distance, order_[i]};
+    }
+    if (node.count > 0)
+      continue;
+    const Pending left{node.first, entry(nodes_[node.first])};
+    const Pending right{node.first + 1, entry(nodes_[node.first + 1])};
+    const bool left_first = left.entry <= right.entry;
+    stack[size++] = left_first ? right : left;
+    stack[size++] = left_first ? left : right;
+  }
+  return hit;
+}
+
+} // namespace nurbs
+} // namespace pcl
