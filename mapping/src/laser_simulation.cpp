@@ -32,15 +32,17 @@ struct Reading {
 /** Whether enough light comes back. */
 bool
 isSeen(const LaserModel& laser,
-       double reflectivity,
+       const TownSurface& surface,
        double cosine,
        double range,
        CounterRandom& random)
 {
   const double closeness = laser.signal_range / range;
-  const double signal = reflectivity * std::sqrt(cosine) * closeness * closeness;
+  const double signal =
+      surface.reflectivity * std::sqrt(cosine) * closeness * closeness;
   const double fourth = signal * signal * signal * signal;
-  const double seen = (1.0 - laser.random_loss) * fourth / (1.0 + fourth);
+  const double passed = (1.0 - laser.random_loss) * (1.0 - surface.loss);
+  const double seen = passed * fourth / (1.0 + fourth);
   return random.chance(seen);
 }
 
@@ -97,11 +99,11 @@ private:
     if (hit.surface == RayHit::kNothing)
       return;
     const double cosine = town.cosine(ray, hit);
-    const double reflectivity = town.surface(hit).reflectivity;
-    Reading reading{hit.distance, reflectivity * std::sqrt(cosine)};
+    const TownSurface& surface = town.surface(hit);
+    Reading reading{hit.distance, surface.reflectivity * std::sqrt(cosine)};
     if (view_.options.noise) {
       CounterRandom random(view_.options.town.seed, view_.index, i);
-      if (!isSeen(laser_, reflectivity, cosine, hit.distance, random))
+      if (!isSeen(laser_, surface, cosine, hit.distance, random))
         return;
       reading = noisyReading(laser_, reading.range, reading.intensity, random);
     }

@@ -26,14 +26,24 @@ halfArea(const Eigen::AlignedBox3d& box)
   return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
 }
 
-/** Single precision, rounded so that nothing sticks out. */
-Eigen::Array3f
-roundedOut(const Eigen::Vector3d& corner, float towards)
+/** Where rays and boxes are compared in single precision, in a coordinate more. */
+constexpr float kEverywhere = 1e30F;
+constexpr float kDistanceMargin = 1e-3F; // metres, beyond rounding of distances
+
+/** By how much a box is grown, so that rounding of its corners, of rays' origins and of
+ * distances does not lose anything. */
+double
+roundingMargin(const Eigen::AlignedBox3d& box)
 {
-  Eigen::Array3f result;
-  for (int k = 0; k < 3; ++k)
-    result(k) = std::nextafter(static_cast<float>(corner(k)), towards);
-  return result;
+  const double farthest =
+      std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  return 1e-4 + 1e-6 * farthest;
+}
+
+Eigen::Array4f
+inSinglePrecision(const Eigen::Vector3d& place, double fourth)
+{
+  return Eigen::Array4d(place.x(), place.y(), place.z(), fourth).cast<float>();
 }
 
 } // namespace
@@ -69,9 +79,9 @@ private:
       box.extend(boxes_[tree_.order_[i]]);
       centers.extend(boxes_[tree_.order_[i]].center());
     }
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    tree_.nodes_[node].low = roundedOut(box.min(), -kInfinity);
-    tree_.nodes_[node].high = roundedOut(box.max(), kInfinity);
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(roundingMargin(box));
+    tree_.nodes_[node].low = inSinglePrecision(box.min() - margin, -kEverywhere);
+    tree_.nodes_[node].high = inSinglePrecision(box.max() + margin, kEverywhere);
     tree_.nodes_[node].first = first;
     tree_.nodes_[node].count = last - first;
     // Half of the depth is left to halving, which ends within 32 levels.
@@ -153,28 +163,31 @@ PrimitiveTree::cast(const Ray& ray, double near, double far) const
   RayHit hit{far, RayHit::kNothing};
   if (nodes_.empty())
     return hit;
+  const Eigen::Array4f origin = inSinglePrecision(ray.origin, 0.0);
   // Not infinite, so that a ray within the side of a box gives 0 and not NaN.
-  const Eigen::Array3d along = ray.direction.array();
-  const Eigen::Array3d inverse = (along.abs() < 1e-290).select(1e-290, along).inverse();
-  const Eigen::Array3d origin = ray.origin.array();
+  const Eigen::Array4f along = inSinglePrecision(ray.direction, 1.0);
+  const Eigen::Array4f inverse = (along.abs() < 1e-30F).select(1e-30F, along).inverse();
+  constexpr float kNever = std::numeric_limits<float>::infinity();
+  const auto single_near = static_cast<float>(near);
+  auto single_far = static_cast<float>(far) + kDistanceMargin;
   // Distance at which the ray enters a box, infinity if it does not before the hit.
   const auto entry = [&](const Node& node) {
-    const Eigen::Array3d one = (node.low.cast<double>() - origin) * inverse;
-    const Eigen::Array3d other = (node.high.cast<double>() - origin) * inverse;
-    const double in = std::max(one.min(other).maxCoeff(), near);
-    const double out = std::min(one.max(other).minCoeff(), hit.distance);
-    return in <= out ? in : std::numeric_limits<double>::infinity();
+    const Eigen::Array4f one = (node.low - origin) * inverse;
+    const Eigen::Array4f other = (node.high - origin) * inverse;
+    const float in = std::max(one.min(other).maxCoeff(), single_near);
+    const float out = std::min(one.max(other).minCoeff(), single_far);
+    return in <= out ? in : kNever;
   };
   struct Pending {
     std::uint32_t node;
-    double entry;
+    float entry;
   };
   std::array<Pending, kDeepest> stack;
   std::size_t size = 0;
   stack[size++] = {0, entry(nodes_[0])};
   while (size > 0) {
     const Pending next = stack[--size];
-    if (!(next.entry < hit.distance))
+    if (!(next.entry < single_far))
       continue;
     const Node& node = nodes_[next.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -183,6 +196,7 @@ PrimitiveTree::cast(const Ray& ray, double near, double far) const
       if (distance < hit.distance)
         hit = {distance, order_[i]};
     }
+    single_far = static_cast<float>(hit.distance) + kDistanceMargin;
     if (node.count > 0)
       continue;
     const Pending left{node.first, entry(nodes_[node.first])};

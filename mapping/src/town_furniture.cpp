@@ -135,7 +135,7 @@ addFurniture(TownParts& parts, const TownPath& path, std::uint64_t seed)
   constexpr double kEdge = RoadShape::kHalfWidth;
   constexpr double kOnRoad = -2.0; // clearance of what stands on its own road's side
   const auto car = [](TownParts& p, CounterRandom& random) {
-    if (random.chance(0.55))
+    if (random.chance(0.4))
       addCar(p, SurfaceKind::ParkedCar, random);
   };
   std::uint64_t number = 10;

@@ -23,7 +23,7 @@ struct FrontPart {
   OpeningGrid openings; /**< first: from the corner of this part */
   double recess = 0.2;
   SurfaceKind filling = SurfaceKind::Window;
-  double filling_reflectivity = 0.03;
+  double filling_reflectivity = 0.0; /**< 0 for glass */
 };
 
 /** The sides of an opening, from the wall to its filling, with a vault over an arched
@@ -75,7 +75,10 @@ addFront(TownParts& parts, const FrontPart& front, double wall_reflectivity)
       parts.use(SurfaceKind::Wall, wall_reflectivity);
       addReveal(parts, front, corner + Vector3d(x, 0.0, z));
     }
-  parts.use(front.filling, front.filling_reflectivity);
+  if (front.filling_reflectivity > 0.0)
+    parts.use(front.filling, front.filling_reflectivity);
+  else
+    parts.useGlass(front.filling);
   parts.addRectangle(corner + Vector3d(0.0, front.recess, 0.0), across, up);
 }
 
@@ -201,7 +204,7 @@ addHouse(TownParts& parts, double width, double depth, CounterRandom& random)
           return;
         FrontPart part = windows(left, bottom, bay, storey, n, rows);
         part.recess = shutters ? 0.08 : 0.18;
-        part.filling_reflectivity = shutters ? 0.5 : 0.03;
+        part.filling_reflectivity = shutters ? 0.5 : 0.0;
         addFront(parts, part, paint);
       };
   addWindows(0.0, 0.0, kGroundFloor, door, 1);

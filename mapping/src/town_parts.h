@@ -31,6 +31,15 @@ public:
   {
     kind_ = kind;
     reflectivity_ = static_cast<float>(reflectivity);
+    loss_ = 0.0F;
+  }
+
+  /** As use(), for window panes. */
+  void
+  useGlass(SurfaceKind kind)
+  {
+    use(kind, 0.06);
+    loss_ = 0.85F;
   }
 
   void
@@ -78,6 +87,7 @@ private:
   Eigen::Isometry3d frame_ = Eigen::Isometry3d::Identity();
   SurfaceKind kind_ = SurfaceKind::Wall;
   float reflectivity_ = 0.5F;
+  float loss_ = 0.0F;
   std::uint32_t object_ = 0;
 };
 

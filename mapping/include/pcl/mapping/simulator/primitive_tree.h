@@ -40,11 +40,13 @@ public:
   cast(const Ray& ray, double near, double far) const;
 
 private:
-  /** An inner node has its children next to each other; a leaf its primitives. */
+  /** An inner node has its children next to each other; a leaf its primitives. Boxes
+   * are in single precision, grown by more than its rounding, with a fourth coordinate
+   * that holds everything: four numbers fit a register. */
   struct Node {
-    Eigen::Array3f low;
+    Eigen::Array4f low;
+    Eigen::Array4f high;
     std::uint32_t first; /**< of the children, or of the leaf's places in order_ */
-    Eigen::Array3f high;
     std::uint32_t count; /**< of a leaf's primitives, 0 for an inner node */
   };
 

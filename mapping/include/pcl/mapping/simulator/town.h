@@ -43,8 +43,11 @@ surfaceKindName(SurfaceKind kind);
 /** \brief What a surface is made of and where it belongs. */
 struct TownSurface {
   SurfaceKind kind = SurfaceKind::Wall;
-  /** Share of light that it scatters, 0 to 1; what is lost through glass is missing. */
+  /** Share of light that it scatters, 0 to 1. */
   float reflectivity = 0.5F;
+  /** Share of beams that pass or are thrown elsewhere, as by glass, and give nothing.
+   */
+  float loss = 0.0F;
   /** Surfaces of one building, car, ... have the same number. */
   std::uint32_t object = 0;
 };
