@@ -4,6 +4,7 @@
 #include <pcl/mapping/kitti_calibration.h>
 #include <pcl/mapping/simulator/simulated_drive.h>
 
+#include "pose_interpolation.h"
 #include "sensor_simulation.h"
 
 #include <algorithm>
@@ -184,18 +185,7 @@ SimulatedDrive::sensorPose(double time) const
       truth_.end() - 1,
       time,
       [](double t, const StampedPose& pose) { return t < pose.stamp; });
-  const StampedPose& next = *after;
-  const StampedPose& last = *(after - 1);
-  const double span = next.stamp - last.stamp;
-  const double share = span > 0.0 ? (time - last.stamp) / span : 0.0;
-  const Eigen::Isometry3d& from = last.T_world_body;
-  const Eigen::AngleAxisd turn(
-      Eigen::Quaterniond(from.linear().transpose() * next.T_world_body.linear()));
-  Eigen::Isometry3d pose = from;
-  pose.linear() =
-      from.linear() * Eigen::AngleAxisd(share * turn.angle(), turn.axis()).matrix();
-  pose.translation() += share * (next.T_world_body.translation() - from.translation());
-  return pose;
+  return interpolatePose(*(after - 1), *after, time);
 }
 
 } // namespace nurbs
