@@ -42,13 +42,13 @@ private:
     const Eigen::Vector3d pixel(
         (column - lens.cx) / lens.fx, (row - lens.cy) / lens.fy, 1.0);
     const double stretch = pixel.norm();
-    const Ray ray{pose_.translation(), pose_.linear() * (pixel / stretch)};
-    const RayHit hit =
+    const Beam ray{pose_.translation(), pose_.linear() * (pixel / stretch)};
+    const BeamHit hit =
         town_.cast(ray, camera_.min_depth * stretch, camera_.max_depth * stretch);
     const auto i =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(camera_.width) +
         static_cast<std::size_t>(column);
-    if (hit.surface == RayHit::kNothing)
+    if (hit.surface == BeamHit::kNothing)
       return;
     double depth = hit.distance / stretch;
     if (view_.options.noise) {
@@ -71,9 +71,9 @@ private:
     constexpr double kOffSurface = 1e-3;
     const Eigen::Vector3d way = point - projector_;
     const double distance = way.norm();
-    const RayHit hit =
+    const BeamHit hit =
         town_.cast({projector_, way / distance}, 0.0, distance - kOffSurface);
-    return hit.surface != RayHit::kNothing;
+    return hit.surface != BeamHit::kNothing;
   }
 
   double

@@ -89,7 +89,7 @@ writeKittiScan(const path& sequence,
   const Scan& scan = simulated.scan;
   for (std::size_t i = 0; i < scan.cloud->size(); ++i) {
     const std::uint32_t id = simulated.surfaces[i];
-    if (id == RayHit::kNothing)
+    if (id == BeamHit::kNothing)
       continue;
     const pcl::PointXYZI& point = (*scan.cloud)[i];
     points.insert(points.end(), {point.x, point.y, point.z, point.intensity});

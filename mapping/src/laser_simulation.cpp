@@ -90,13 +90,13 @@ public:
 
 private:
   void
-  measure(const Ray& ray,
+  measure(const Beam& ray,
           const Eigen::Vector3d& beam,
           const TownView& town,
           std::size_t i)
   {
-    const RayHit hit = town.cast(ray, laser_.min_range, laser_.max_range);
-    if (hit.surface == RayHit::kNothing)
+    const BeamHit hit = town.cast(ray, laser_.min_range, laser_.max_range);
+    if (hit.surface == BeamHit::kNothing)
       return;
     const double cosine = town.cosine(ray, hit);
     const TownSurface& surface = town.surface(hit);

@@ -157,10 +157,10 @@ PrimitiveTree::PrimitiveTree(std::vector<Primitive> primitives)
   Builder(*this).build();
 }
 
-RayHit
-PrimitiveTree::cast(const Ray& ray, double near, double far) const
+BeamHit
+PrimitiveTree::cast(const Beam& ray, double near, double far) const
 {
-  RayHit hit{far, RayHit::kNothing};
+  BeamHit hit{far, BeamHit::kNothing};
   if (nodes_.empty())
     return hit;
   const Eigen::Array4f origin = inSinglePrecision(ray.origin, 0.0);

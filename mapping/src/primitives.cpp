@@ -18,8 +18,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /** A ray in a primitive's frame, counted from its point nearest to the frame's origin:
  * squares of large distances would cost digits. */
-struct LocalRay {
-  LocalRay(const Eigen::Isometry3d& frame, const Ray& ray)
+struct LocalBeam {
+  LocalBeam(const Eigen::Isometry3d& frame, const Beam& ray)
       : direction(frame.linear().transpose() * ray.direction)
   {
     const Vector3d start =
@@ -69,7 +69,7 @@ firstOfQuadratic(double a, double b, double c, const Accept& accept)
  */
 template <typename Inside>
 double
-accepted(const LocalRay& ray, double t, double near, double far, const Inside& inside)
+accepted(const LocalBeam& ray, double t, double near, double far, const Inside& inside)
 {
   const double distance = t + ray.shift;
   return distance > near && distance < far && inside(ray.at(t)) ? distance : kNever;
@@ -88,7 +88,7 @@ isInside(const PlanePatch& patch, double x, double y)
 }
 
 double
-meet(const PlanePatch& patch, const Ray& ray, double near, double far)
+meet(const PlanePatch& patch, const Beam& ray, double near, double far)
 {
   const Vector3d normal = patch.frame.linear().col(2);
   const double distance =
@@ -104,9 +104,9 @@ meet(const PlanePatch& patch, const Ray& ray, double near, double far)
 }
 
 double
-meet(const FrustumPatch& patch, const Ray& ray, double near, double far)
+meet(const FrustumPatch& patch, const Beam& ray, double near, double far)
 {
-  const LocalRay local(patch.frame, ray);
+  const LocalBeam local(patch.frame, ray);
   const Vector3d& o = local.origin;
   const Vector3d& d = local.direction;
   const double slope = (patch.radius_top - patch.radius_bottom) / patch.height;
@@ -122,9 +122,9 @@ meet(const FrustumPatch& patch, const Ray& ray, double near, double far)
 }
 
 double
-meet(const SpherePatch& patch, const Ray& ray, double near, double far)
+meet(const SpherePatch& patch, const Beam& ray, double near, double far)
 {
-  const LocalRay local(patch.frame, ray);
+  const LocalBeam local(patch.frame, ray);
   const double low = patch.radius * std::sin(patch.latitude.first);
   const double high = patch.radius * std::sin(patch.latitude.last);
   const auto inside = [&](const Vector3d& p) { return p.z() >= low && p.z() <= high; };
@@ -136,9 +136,9 @@ meet(const SpherePatch& patch, const Ray& ray, double near, double far)
 }
 
 double
-meet(const TorusPatch& patch, const Ray& ray, double near, double far)
+meet(const TorusPatch& patch, const Beam& ray, double near, double far)
 {
-  const LocalRay local(patch.frame, ray);
+  const LocalBeam local(patch.frame, ray);
   const Vector3d& o = local.origin;
   const Vector3d& d = local.direction;
   const double major = patch.radius_major;
@@ -229,7 +229,7 @@ eliminateU(const RuledSection& one, const RuledSection& other)
 }
 
 double
-meet(const RuledPatch& patch, const Ray& ray, double near, double far)
+meet(const RuledPatch& patch, const Beam& ray, double near, double far)
 {
   const Vector3d across = ray.direction.unitOrthogonal();
   const RuledSection one(patch, ray.origin, across);
@@ -280,7 +280,7 @@ OpeningGrid::contains(double u, double v) const
 }
 
 double
-intersect(const Primitive& primitive, const Ray& ray, double near, double far)
+intersect(const Primitive& primitive, const Beam& ray, double near, double far)
 {
   switch (primitive.index()) {
   case 0:

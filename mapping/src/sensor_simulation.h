@@ -19,15 +19,15 @@ public:
   moveTo(double time);
 
   /** The first meeting of a ray with anything. */
-  RayHit
-  cast(const Ray& ray, double near, double far) const;
+  BeamHit
+  cast(const Beam& ray, double near, double far) const;
 
   /** |cos| of the angle between a ray and the normal of the surface it meets. */
   double
-  cosine(const Ray& ray, const RayHit& hit) const;
+  cosine(const Beam& ray, const BeamHit& hit) const;
 
   const TownSurface&
-  surface(const RayHit& hit) const
+  surface(const BeamHit& hit) const
   {
     return town_.surface(hit.surface);
   }

@@ -75,10 +75,10 @@ TownView::moveTo(double time)
     body.pose = town_.moverPose(*body.mover, time);
 }
 
-RayHit
-TownView::cast(const Ray& ray, double near, double far) const
+BeamHit
+TownView::cast(const Beam& ray, double near, double far) const
 {
-  RayHit hit = town_.tree().cast(ray, near, far);
+  BeamHit hit = town_.tree().cast(ray, near, far);
   for (const Body& body : bodies_) {
     if (!body.pose)
       continue;
@@ -87,7 +87,7 @@ TownView::cast(const Ray& ray, double near, double far) const
     if (way.squaredNorm() - std::pow(way.dot(ray.direction), 2) > radius * radius)
       continue;
     const Eigen::Matrix3d turn = body.pose->linear().transpose();
-    const Ray local{turn * way, turn * ray.direction};
+    const Beam local{turn * way, turn * ray.direction};
     for (std::uint32_t k = 0; k < body.mover->num_surfaces; ++k) {
       const std::uint32_t id = body.mover->first_surface + k;
       const double distance = intersect(town_.primitive(id), local, near, hit.distance);
@@ -99,7 +99,7 @@ TownView::cast(const Ray& ray, double near, double far) const
 }
 
 double
-TownView::cosine(const Ray& ray, const RayHit& hit) const
+TownView::cosine(const Beam& ray, const BeamHit& hit) const
 {
   const Primitive& primitive = town_.primitive(hit.surface);
   const Eigen::Vector3d point = ray.at(hit.distance);
@@ -122,7 +122,7 @@ emptyScan(int width, int height, double stamp)
   for (pcl::PointXYZI& point : *result.scan.cloud)
     point.x = point.y = point.z = kNaN;
   result.scan.cloud->is_dense = false;
-  result.surfaces.assign(result.scan.cloud->size(), RayHit::kNothing);
+  result.surfaces.assign(result.scan.cloud->size(), BeamHit::kNothing);
   result.true_points.assign(result.scan.cloud->size(), Eigen::Vector3d::Constant(kNaN));
   return result;
 }

@@ -12,7 +12,7 @@ namespace pcl {
 namespace nurbs {
 
 /** \brief Where a ray meets a set of surfaces first. */
-struct RayHit {
+struct BeamHit {
   static constexpr std::uint32_t kNothing = 0xFFFFFFFFU;
 
   double distance = 0.0;
@@ -36,8 +36,8 @@ public:
   }
 
   /** \brief The first meeting between two distances. */
-  RayHit
-  cast(const Ray& ray, double near, double far) const;
+  BeamHit
+  cast(const Beam& ray, double near, double far) const;
 
 private:
   /** An inner node has its children next to each other; a leaf its primitives. Boxes

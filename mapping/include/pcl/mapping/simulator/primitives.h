@@ -22,7 +22,7 @@ namespace nurbs {
  */
 
 /** \brief A half-line. */
-struct Ray {
+struct Beam {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX(); /**< of unit length */
 
@@ -126,7 +126,7 @@ using Primitive =
 /** \brief Distance along a ray to the first meeting between two distances (\a near >=
  * 0), infinity when there is none. O(1), no allocation. \ingroup mapping */
 PCL_NURBS_MAPPING_EXPORT double
-intersect(const Primitive& primitive, const Ray& ray, double near, double far);
+intersect(const Primitive& primitive, const Beam& ray, double near, double far);
 
 /** \brief Unit normal at a point of the surface (of either sense). */
 PCL_NURBS_MAPPING_EXPORT Eigen::Vector3d

@@ -30,7 +30,7 @@ struct SimulationOptions {
 /** \brief A scan with what is true about it, point by point. */
 struct SimulatedScan {
   Scan scan;
-  /** Surface of each point (RayHit::kNothing without a return). */
+  /** Surface of each point (BeamHit::kNothing without a return). */
   std::vector<std::uint32_t> surfaces;
   /** Where the beam met the surface, in the world at the time of the point. */
   std::vector<Eigen::Vector3d> true_points;
