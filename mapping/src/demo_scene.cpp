@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the PCL-NURBS authors
 
 #include <pcl/mapping/demo_scene.h>
+#include <pcl/mapping/simulator/counter_random.h>
 
 #include "demo_surfaces.h"
 
@@ -37,16 +38,6 @@ Eigen::Vector3d
 toRoom(const Eigen::Vector3d& camera)
 {
   return cameraAxes().transpose() * camera + kCameraHeight * Eigen::Vector3d::UnitZ();
-}
-
-/** Random bits that depend on the seed and a counter only (splitmix64). */
-std::uint64_t
-scramble(std::uint64_t value)
-{
-  value += 0x9E3779B97F4A7C15U;
-  value = (value ^ (value >> 30U)) * 0xBF58476D1CE4E5B9U;
-  value = (value ^ (value >> 27U)) * 0x94D049BB133111EBU;
-  return value ^ (value >> 31U);
 }
 
 /** Very nearly normal deviate: a sum of twelve uniform ones, which every machine adds

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#pragma once
+
+#include <pcl/mapping/trajectory.h>
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace pcl {
+namespace nurbs {
+
+/** Lanes and edges of a road, metres from the driven path, left positive. */
+struct RoadShape {
+  static constexpr double kMiddle = 1.7;
+  static constexpr double kHalfWidth = 5.6;
+  static constexpr double kSidewalk = 1.8;
+  static constexpr double kOncoming = 3.3;
+  static constexpr double kParking = 4.65; // from the middle
+};
+
+/** The line on the ground below a drive, as nodes at equal steps, with an end piece at
+ * both ends so that the town goes on; and which of it is road of its own. */
+class TownPath {
+public:
+  struct Node {
+    Eigen::Vector3d ground = Eigen::Vector3d::Zero();
+    Eigen::Vector2d along = Eigen::Vector2d::UnitX();
+    double arc = 0.0;
+    bool owned = true; /**< no earlier leg of the path runs here */
+  };
+
+  static constexpr double kStep = 3.0;
+
+  /** \param[in,out] drive heights are evened out where legs meet
+   * \param[in] height of the poses above the ground */
+  TownPath(Trajectory& drive, double height);
+
+  const std::vector<Node>&
+  nodes() const
+  {
+    return nodes_;
+  }
+
+  /** Place on the ground at an arc length, metres to the left of the path. */
+  Eigen::Vector3d
+  place(double arc, double lateral) const;
+
+  /** Direction of the path at an arc length. */
+  Eigen::Vector2d
+  direction(double arc) const;
+
+  /** Arc length of the drive at a time (that of the nearest pose's time beyond the
+   * ends). */
+  double
+  arcAt(double time) const;
+
+  /** Whether the road between a node and the next is to be built. */
+  bool
+  hasRoad(std::size_t node) const
+  {
+    return nodes_[node].owned || nodes_[node + 1].owned;
+  }
+
+  /** Distance of a place from the nearest road's edge, negative on a road; at most
+   * kFar. */
+  double
+  roadClearance(const Eigen::Vector2d& place) const;
+
+  /** Distance of a place from the nearest line driven; at most kFar. */
+  double
+  driveClearance(const Eigen::Vector2d& place) const;
+
+  /** Smooth height of the ground, and how far the nearest node is. */
+  struct Ground {
+    double height = 0.0;
+    double distance = 0.0;
+  };
+
+  Ground
+  groundAt(const Eigen::Vector2d& place) const;
+
+  static constexpr double kFar = 30.0;
+
+private:
+  void
+  placeNodes(const Trajectory& drive, double height);
+
+  void
+  setDirections();
+
+  void
+  findLegs(std::vector<int>& same_place);
+
+  void
+  evenHeights(const std::vector<int>& same_place, Trajectory& drive);
+
+  Eigen::Vector2d
+  middle(std::size_t node) const;
+
+  template <typename Visit>
+  void
+  visitNear(const Eigen::Vector2d& place, const Visit& visit) const;
+
+  std::vector<Node> nodes_;
+  std::vector<double> pose_arc_;
+  std::vector<double> pose_time_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+} // namespace nurbs
+} // namespace pcl

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include "settings.h"
+
+#include "run_tool.h"
+
+#include <pcl/mapping/kitti_calibration.h>
+
+#include <boost/program_options.hpp>
+
+#include <cmath>
+#include <iostream>
+#include <map>
+
+namespace pcl_nurbs_tools {
+namespace {
+
+namespace po = boost::program_options;
+using namespace pcl::nurbs;
+
+constexpr double kDegree = M_PI / 180.0;
+
+void
+describeDrive(SimulationSettings& s, po::options_description& description)
+{
+  description.add_options()("circuit",
+                            po::value(&s.circuit)->default_value("block"),
+                            "built-in closed drive: block, oval, eight")(
+      "size",
+      po::value(&s.size)->default_value(120.0),
+      "extent of the circuit, metres")(
+      "speed", po::value(&s.speed)->default_value(8.0), "on the circuit, m/s")(
+      "trajectory",
+      po::value(&s.trajectory)->value_name("FILE"),
+      "drive along these poses instead (KITTI's format or TUM's)")(
+      "times",
+      po::value(&s.times)->value_name("FILE"),
+      "times of poses in KITTI's format; without them one per turn of the sensor")(
+      "frame",
+      po::value(&s.frame)->default_value("camera"),
+      "what the poses are of: camera (z ahead, y down, as KITTI's) or vehicle (x "
+      "ahead, "
+      "z up)")("calib",
+               po::value(&s.calib)->value_name("FILE"),
+               "KITTI's calib.txt, whose Tr goes from the laser to that camera");
+}
+
+void
+describeSensor(SimulationSettings& s, po::options_description& description)
+{
+  description.add_options()(
+      "sensor",
+      po::value(&s.sensor)->default_value("hdl64"),
+      "hdl64, hdl32, vlp16 (KITTI layout) or kinect (TUM layout)")(
+      "columns",
+      po::value(&s.columns)->default_value(0),
+      "beams of a laser per turn and row; 0 for the sensor's own")(
+      "height",
+      po::value(&s.simulation.town.sensor_height)->default_value(1.73, "1.73"),
+      "of the poses above the road, metres")(
+      "yaw",
+      po::value(&s.yaw)->default_value(-70.0, "-70"),
+      "where a camera looks, degrees left of ahead")(
+      "right",
+      po::value(&s.right)->default_value(3.0, "3"),
+      "a camera's place to the right of the poses, metres")(
+      "distortion",
+      po::bool_switch(&s.simulation.motion_distortion),
+      "the sensor moves during a scan (times per point go to point_times/)")(
+      "exact", po::bool_switch(&s.exact), "no noise and no lost returns");
+}
+
+void
+describeOutput(SimulationSettings& s, po::options_description& description)
+{
+  description.add_options()(
+      "out", po::value(&s.out)->value_name("FOLDER"), "where the drive is written")(
+      "sequence",
+      po::value(&s.writing.sequence)->default_value("00"),
+      "number of the sequence in KITTI's layout")(
+      "first", po::value(&s.writing.first)->default_value(0), "first scan")(
+      "scans", po::value(&s.writing.count)->default_value(0), "scans; 0 for all")(
+      "seed", po::value(&s.simulation.town.seed)->default_value(1), "of the town")(
+      "labels",
+      po::bool_switch(&s.writing.labels),
+      "write kind and object of every point to labels/");
+}
+
+void
+requireSensible(const SimulationSettings& s)
+{
+  if (s.out.empty())
+    throw ToolError(kUsage, "--out is needed (see --help)");
+  if (s.frame != "camera" && s.frame != "vehicle")
+    throw ToolError(kUsage, "--frame must be camera or vehicle");
+  if (s.columns < 0 || s.columns > 65536)
+    throw ToolError(kUsage, "--columns must be 0 to 65536");
+  if (s.trajectory.empty() && !(s.times.empty() && s.calib.empty()))
+    throw ToolError(kUsage, "--times and --calib go with --trajectory");
+  if (!std::isfinite(s.yaw) || !std::isfinite(s.right))
+    throw ToolError(kUsage, "--yaw and --right must be finite");
+  const std::string& sequence = s.writing.sequence;
+  if (sequence.empty() || sequence.find('/') != std::string::npos || sequence[0] == '.')
+    throw ToolError(kUsage, "--sequence must be the name of a folder");
+}
+
+/** Poses by their number get the times of a sensor that never stops. */
+void
+spreadTimes(Trajectory& drive, double period)
+{
+  for (std::size_t k = 0; k < drive.size(); ++k)
+    if (drive[k].stamp != static_cast<double>(k))
+      return;
+  for (StampedPose& pose : drive)
+    pose.stamp *= period;
+}
+
+/** A camera's axes beside the path. */
+Eigen::Isometry3d
+cameraMount(const SimulationSettings& s)
+{
+  Eigen::Matrix3d axes;
+  axes << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
+  mount.linear() =
+      Eigen::AngleAxisd(s.yaw * kDegree, Eigen::Vector3d::UnitZ()).matrix() * axes;
+  mount.translation().y() = -s.right;
+  return mount;
+}
+
+} // namespace
+
+bool
+parseSettings(int argc, char** argv, SimulationSettings& settings)
+{
+  po::options_description options("Options");
+  po::options_description drive("Drive");
+  po::options_description sensor("Sensor");
+  po::options_description output("Output");
+  addCommonOptions(settings.common, options);
+  describeDrive(settings, drive);
+  describeSensor(settings, sensor);
+  describeOutput(settings, output);
+  options.add(drive).add(sensor).add(output);
+  const int style =
+      po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+  po::variables_map values;
+  po::store(po::command_line_parser(argc, argv)
+                .options(options)
+                .positional({})
+                .style(style)
+                .run(),
+            values);
+  if (values.count("help") != 0) {
+    std::cout
+        << "simulate_scans --out FOLDER\n"
+           "Drive through a made-up town of exact surfaces and write what a laser\n"
+           "or a depth camera sees, with the true poses.\n"
+        << options;
+    return false;
+  }
+  if (values.count("version") != 0) {
+    std::cout << versionText("simulate_scans");
+    return false;
+  }
+  po::notify(values);
+  requireSensible(settings);
+  settings.simulation.threads = resolveThreads(settings.common.threads);
+  settings.simulation.noise = !settings.exact;
+  if (settings.sensor == "kinect")
+    settings.simulation.T_body_sensor = cameraMount(settings);
+  return true;
+}
+
+Trajectory
+driveOf(const SimulationSettings& settings)
+{
+  if (settings.trajectory.empty()) {
+    static const std::map<std::string, CircuitShape> shapes = {
+        {"block", CircuitShape::Block},
+        {"oval", CircuitShape::Oval},
+        {"eight", CircuitShape::Eight}};
+    const auto shape = shapes.find(settings.circuit);
+    if (shape == shapes.end())
+      throw ToolError(kUsage, "--circuit must be block, oval or eight");
+    CircuitOptions options;
+    options.shape = shape->second;
+    options.size = settings.size;
+    options.speed = settings.speed;
+    options.height = settings.simulation.town.sensor_height;
+    return makeCircuit(options);
+  }
+  Trajectory drive = readTrajectory(settings.trajectory, settings.times);
+  if (settings.times.empty())
+    spreadTimes(drive, 0.1);
+  if (settings.frame == "camera") {
+    const Eigen::Isometry3d T_camera_laser = settings.calib.empty()
+                                                 ? nominalKittiCalibration()
+                                                 : readKittiCalibration(settings.calib);
+    drive = inLaserFrame(drive, T_camera_laser);
+  }
+  return drive;
+}
+
+SimulatedDrive::Sensor
+sensorOf(const SimulationSettings& settings)
+{
+  if (settings.sensor == "kinect")
+    return DepthCameraModel::kinect();
+  static const std::map<std::string, LaserModel (*)()> lasers = {
+      {"hdl64", LaserModel::hdl64},
+      {"hdl32", LaserModel::hdl32},
+      {"vlp16", LaserModel::vlp16}};
+  const auto found = lasers.find(settings.sensor);
+  if (found == lasers.end())
+    throw ToolError(kUsage, "--sensor must be hdl64, hdl32, vlp16 or kinect");
+  LaserModel laser = found->second();
+  if (settings.columns > 0)
+    laser.columns = settings.columns;
+  return laser;
+}
+
+} // namespace pcl_nurbs_tools
