@@ -292,7 +292,8 @@ TEST_F(ScanReaders, truthBetweenPosesIsInterpolated)
   EXPECT_THROW(openDepthSequence(folder.string()), InputError);
 }
 
-/** A sample of a public data set opens without a fault and its first scan has points. */
+/** A sample of a public data set opens without a fault and its first scan has points.
+ */
 void
 expectGood(const ScanSource& source, std::size_t scans, bool truth)
 {
