@@ -5,19 +5,17 @@
 
 #include "input_file.h"
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <limits>
 #include <stdexcept>
 
 namespace pcl {
 namespace nurbs {
 namespace {
 
-constexpr std::size_t kLargestText = std::size_t{1} << 30U;
+constexpr std::size_t kLargestTimes = std::size_t{1} << 30U;
 constexpr double kVerticalCorrection = 0.205 * M_PI / 180.0;
 
 void
@@ -39,7 +37,7 @@ turnUpwards(pcl::PointCloud<pcl::PointXYZI>& cloud)
 std::vector<float>
 readPointTimes(const std::filesystem::path& path, std::size_t points)
 {
-  const InputFile file = loadInputFile(path.string(), kLargestText);
+  const InputFile file = loadInputFile(path.string(), kLargestTimes);
   if (file.bytes.size() != points * sizeof(float))
     file.fail("does not hold a time for each of " + std::to_string(points) + " points");
   std::vector<float> times(points);
@@ -234,71 +232,6 @@ ScanFiles::open()
   if (scans.empty())
     throw InputError(folder.string(), "has no scan that can be read");
   return std::make_unique<FileScanSource>(std::move(*this));
-}
-
-std::vector<std::filesystem::path>
-filesByName(const std::filesystem::path& folder,
-            const std::vector<std::string>& extensions)
-{
-  std::error_code error;
-  if (!std::filesystem::is_directory(folder, error))
-    throw InputError(folder.string(), "is not a folder");
-  std::vector<std::filesystem::path> result;
-  for (std::filesystem::directory_iterator entry(folder, error), end;
-       !error && entry != end;
-       entry.increment(error))
-    if (std::find(extensions.begin(),
-                  extensions.end(),
-                  entry->path().extension().string()) != extensions.end())
-      result.push_back(entry->path());
-  if (error)
-    throw InputError(folder.string(), error.message());
-  if (result.empty())
-    throw InputError(folder.string(), "holds no scan");
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
-std::vector<std::vector<std::string>>
-wordsOf(const std::filesystem::path& file)
-{
-  std::istringstream lines(loadInputFile(file.string(), kLargestText).bytes);
-  std::vector<std::vector<std::string>> result;
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream stream(line.substr(0, line.find('#')));
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;)
-      words.push_back(word);
-    if (!words.empty())
-      result.push_back(std::move(words));
-  }
-  return result;
-}
-
-double
-numberOf(const std::filesystem::path& file, const std::string& word)
-{
-  double value = 0.0;
-  const auto [end, error] =
-      std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    throw InputError(file.string(),
-                     "\"" + word.substr(0, 20) + "\" is not a finite number");
-  return value;
-}
-
-std::vector<double>
-readTimes(const std::filesystem::path& file)
-{
-  std::vector<double> times;
-  for (const std::vector<std::string>& words : wordsOf(file)) {
-    if (words.size() != 1)
-      throw InputError(file.string(),
-                       "line " + std::to_string(times.size() + 1) +
-                           " has more than one time");
-    times.push_back(numberOf(file, words[0]));
-  }
-  return times;
 }
 
 } // namespace nurbs

@@ -6,7 +6,6 @@
 // fault.
 
 #include "cloud_files.h"
-#include "test_data.h"
 
 #include <pcl/mapping/kitti_calibration.h>
 #include <pcl/mapping/scan_readers.h>
@@ -292,6 +291,7 @@ TEST_F(ScanReaders, truthBetweenPosesIsInterpolated)
   EXPECT_THROW(openDepthSequence(folder.string()), InputError);
 }
 
+<<<<<<< HEAD
 /** A sample of a public data set opens without a fault and its first scan has points.
  */
 void
@@ -351,4 +351,6 @@ TEST(RealDataSets, depthCameras)
   EXPECT_EQ(source->read(0).geometry->intrinsics().fx, 585.0);
 }
 
+=======
+>>>>>>> sim
 } // namespace
