@@ -80,7 +80,9 @@ def main():
                 reports = [report_of(arguments.program, cloud, options, word, folder)
                            for word in SEGMENTATIONS]
                 pairs = zip(*map(cells, reports))
-                name = f"{cloud.relative_to(arguments.data).parts[0]} {cloud.name}"
+                path = cloud.relative_to(arguments.data)
+                folders = path.parts[:3] if len(path.parts) > 3 else path.parts[:1]
+                name = f"{'/'.join(folders)} {path.name}"
                 lines.append("| " + name + " | " +
                              " | ".join(" | ".join(pair) for pair in pairs) + " |")
                 print(lines[-1], flush=True)

@@ -4,6 +4,7 @@
 #include "line_plot.h"
 
 #include "common_options.h"
+#include "plot_axis.h"
 
 #include <cairo/cairo.h>
 
@@ -32,49 +33,6 @@ constexpr std::array<std::array<double, 3>, 6> kColours = {{{0.0, 0.0, 0.0},
                                                             {0.0, 0.620, 0.451},
                                                             {0.8, 0.475, 0.655},
                                                             {0.902, 0.624, 0.0}}};
-
-/** Interval of one axis and the distance of its ticks. */
-struct Axis {
-  double low = 0.0;
-  double high = 1.0;
-  double tick = 0.2;
-};
-
-/** 1, 2 or 5 times a power of ten, for about six ticks. */
-double
-niceStep(double range)
-{
-  constexpr double kTicks = 6.0;
-  const double power = std::pow(10.0, std::floor(std::log10(range / kTicks)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (range / (step * power) <= kTicks)
-      return step * power;
-  return 10.0 * power;
-}
-
-Axis
-axisOver(double low, double high)
-{
-  constexpr double kMargin = 0.04;
-  Axis axis;
-  if (!(low <= high))
-    return axis;
-  const double range = high > low ? high - low : std::max(1.0, std::abs(high));
-  axis.low = low - kMargin * range;
-  axis.high = high + kMargin * range;
-  axis.tick = niceStep(range);
-  return axis;
-}
-
-/** Stretch an axis about its middle to a range. */
-void
-widen(Axis& axis, double range)
-{
-  const double middle = 0.5 * (axis.low + axis.high);
-  axis.low = middle - 0.5 * range;
-  axis.high = middle + 0.5 * range;
-  axis.tick = niceStep(range);
-}
 
 class PlotPainter {
 public:
