@@ -77,5 +77,9 @@ function(pcl_nurbs_add_test name)
     PCL_NURBS_TEST_DATA="${PROJECT_SOURCE_DIR}/test/data"
     PCL_NURBS_DEFAULT_DATA="${PCL_NURBS_DATA}")
   add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
-  set_tests_properties(${name} PROPERTIES TIMEOUT 600)
+  # Without the data sets some programs have nothing to run: no test passed, none failed.
+  set_tests_properties(${name} PROPERTIES
+    TIMEOUT 600
+    SKIP_REGULAR_EXPRESSION
+      "PASSED  \\] 0 tests[.][\r\n]+.  SKIPPED . [0-9]+ tests?[.][\r\n]*$")
 endfunction()
