@@ -18,6 +18,7 @@ std::vector<double>
 evenElevations(double top, double step, int count)
 {
   std::vector<double> result;
+  result.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k)
     result.push_back((top - k * step) * kDegree);
   return result;

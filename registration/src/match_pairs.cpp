@@ -53,7 +53,7 @@ MatchPairs::lookUp(const Eigen::Vector3d& place, MatchPair& pair) const
 Eigen::Matrix3d
 MatchPairs::metric(std::size_t i, const Eigen::Vector3d& normal) const
 {
-  const Eigen::Matrix3d plane = normal * normal.transpose();
+  Eigen::Matrix3d plane = normal * normal.transpose();
   switch (options_.metric) {
   case MatchMetric::PointToPoint:
     break;

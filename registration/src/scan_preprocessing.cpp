@@ -113,6 +113,7 @@ suitableVoxelSize(const ScanPoints& points)
   if (!(size > 0.0))
     return 1.0;
   std::vector<double> shares;
+  shares.reserve(kSizes);
   for (int i = 0; i < kSizes; ++i)
     shares.push_back(flatShare(points, size * std::pow(0.5, i + 2)));
   const double best = *std::max_element(shares.begin(), shares.end());

@@ -227,8 +227,9 @@ VoxelMap::points() const
   const auto stride = static_cast<std::size_t>(options_.max_points);
   for (std::size_t i = 0; i < voxels_.size(); ++i)
     for (int k = 0; k < voxels_[i].count; ++k)
-      all.push_back(center(voxels_[i].cell) +
-                    points_[i * stride + static_cast<std::size_t>(k)].cast<double>());
+      all.emplace_back(
+          center(voxels_[i].cell) +
+          points_[i * stride + static_cast<std::size_t>(k)].cast<double>());
   return all;
 }
 
