@@ -3,6 +3,8 @@
 
 #include "scan_files.h"
 
+#include <pcl/registration/scan_preprocessing.h>
+
 #include "input_file.h"
 
 #include <cmath>
@@ -16,22 +18,13 @@ namespace nurbs {
 namespace {
 
 constexpr std::size_t kLargestTimes = std::size_t{1} << 30U;
-constexpr double kVerticalCorrection = 0.205 * M_PI / 180.0;
 
 void
 turnUpwards(pcl::PointCloud<pcl::PointXYZI>& cloud)
 {
-  for (pcl::PointXYZI& point : cloud) {
-    const double across = std::hypot(point.x, point.y);
-    const double range = std::hypot(across, point.z);
-    if (!(across > 0.0) || !std::isfinite(range))
-      continue;
-    const double elevation = std::atan2(point.z, across) + kVerticalCorrection;
-    const double stretch = range * std::cos(elevation) / across;
-    point.x = static_cast<float>(point.x * stretch);
-    point.y = static_cast<float>(point.y * stretch);
-    point.z = static_cast<float>(range * std::sin(elevation));
-  }
+  const VerticalTurn turn(kKittiVerticalAngle);
+  for (pcl::PointXYZI& point : cloud)
+    point.getVector3fMap() = turn(point.getVector3fMap());
 }
 
 std::vector<float>

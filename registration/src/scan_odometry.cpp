@@ -68,10 +68,6 @@ ScanOdometry::ScanOdometry(const OdometryOptions& options)
 {
   check(options);
   options_.match.threads = options.threads;
-  decision_ = [this](const OdometryResult&, const Eigen::Isometry3d& since) {
-    return since.translation().norm() >= options_.keyframe_distance ||
-           angleOf(since) >= options_.keyframe_angle;
-  };
 }
 
 ScanOdometry::~ScanOdometry() = default;
@@ -155,13 +151,24 @@ ScanOdometry::insert(const OdometryResult& result)
   pruned_at_ = place;
 }
 
+bool
+ScanOdometry::isKeyframe(const OdometryResult& result) const
+{
+  if (!any_keyframe_)
+    return true;
+  const Eigen::Isometry3d since = keyframe_.inverse() * result.pose;
+  if (decision_)
+    return decision_(result, since);
+  return since.translation().norm() >= options_.keyframe_distance ||
+         angleOf(since) >= options_.keyframe_angle;
+}
+
 void
 ScanOdometry::decideKeyframe(OdometryResult& result)
 {
   if (!result.tracked)
     return;
-  result.keyframe =
-      !any_keyframe_ || decision_(result, keyframe_.inverse() * result.pose);
+  result.keyframe = isKeyframe(result);
   if (!result.keyframe)
     return;
   any_keyframe_ = true;

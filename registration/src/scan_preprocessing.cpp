@@ -18,7 +18,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kDeskewSteps = 128;
 
-/** Largest power of two that is at most a third of the table full. */
+/** Power of two that leaves at least half of the table empty. */
 std::size_t
 slotsFor(std::size_t keys)
 {
@@ -123,19 +123,30 @@ suitableVoxelSize(const ScanPoints& points)
   return size * std::pow(0.5, smallest + 2);
 }
 
+VerticalTurn::VerticalTurn(double angle)
+    : cosine_(std::cos(angle)), sine_(std::sin(angle))
+{
+}
+
+Eigen::Vector3f
+VerticalTurn::operator()(const Eigen::Vector3f& point) const
+{
+  const Eigen::Vector3d p = point.cast<double>();
+  const double level = p.head<2>().norm();
+  if (!(level > 0.0)) // straight up or down, or not finite
+    return point;
+  Eigen::Vector3d turned;
+  turned.head<2>() = p.head<2>() * ((cosine_ * level - sine_ * p.z()) / level);
+  turned.z() = sine_ * level + cosine_ * p.z();
+  return turned.cast<float>();
+}
+
 void
 correctVerticalAngle(ScanPoints& points, double angle)
 {
-  const auto cosine = static_cast<float>(std::cos(angle));
-  const auto sine = static_cast<float>(std::sin(angle));
-  for (Eigen::Vector3f& point : points) {
-    const float level = point.head<2>().norm();
-    if (level == 0.0F)
-      continue;
-    const float z = point.z();
-    point.head<2>() *= (cosine * level - sine * z) / level;
-    point.z() = sine * level + cosine * z;
-  }
+  const VerticalTurn turn(angle);
+  for (Eigen::Vector3f& point : points)
+    point = turn(point);
 }
 
 std::vector<float>

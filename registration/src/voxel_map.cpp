@@ -51,6 +51,13 @@ VoxelMap::center(const Cell& cell) const
   return (cell.cast<double>().array() + 0.5) * options_.voxel_size;
 }
 
+std::size_t
+VoxelMap::firstPoint(std::int32_t voxel) const
+{
+  return static_cast<std::size_t>(voxel) *
+         static_cast<std::size_t>(options_.max_points);
+}
+
 std::int32_t
 VoxelMap::find(const Cell& cell) const
 {
@@ -92,8 +99,7 @@ VoxelMap::keep(std::int32_t voxel, const Eigen::Vector3f& local)
   Voxel& target = voxels_[static_cast<std::size_t>(voxel)];
   if (target.count == options_.max_points)
     return;
-  Eigen::Vector3f* const kept =
-      &points_[static_cast<std::size_t>(voxel * options_.max_points)];
+  Eigen::Vector3f* const kept = &points_[firstPoint(voxel)];
   const auto spacing = static_cast<float>(options_.min_spacing);
   const bool close = std::any_of(kept, kept + target.count, [&](const auto& other) {
     return (other - local).squaredNorm() < spacing * spacing;
@@ -149,8 +155,7 @@ VoxelMap::scanVoxel(std::int32_t voxel,
 {
   const Voxel& asked = voxels_[static_cast<std::size_t>(voxel)];
   const Eigen::Vector3f local = (place - center(asked.cell)).cast<float>();
-  const Eigen::Vector3f* const first =
-      &points_[static_cast<std::size_t>(voxel * options_.max_points)];
+  const Eigen::Vector3f* const first = &points_[firstPoint(voxel)];
   for (const Eigen::Vector3f* p = first; p != first + asked.count; ++p) {
     const Eigen::Vector3f offset = *p - local;
     const float square = offset.squaredNorm();

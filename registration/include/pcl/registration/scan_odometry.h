@@ -115,11 +115,14 @@ private:
   void
   insert(const OdometryResult& result);
 
+  bool
+  isKeyframe(const OdometryResult& result) const;
+
   void
   decideKeyframe(OdometryResult& result);
 
   OdometryOptions options_;
-  KeyframeDecision decision_;
+  KeyframeDecision decision_; // by way and angle if there is none
   VoxelMap map_;
   MotionThreshold threshold_;
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();

@@ -53,14 +53,29 @@ voxelSubsample(const ScanPoints& points, double voxel_size);
 PCL_NURBS_REGISTRATION_EXPORT double
 suitableVoxelSize(const ScanPoints& points);
 
-/** \brief Turn each point of a Velodyne HDL-64E about the sensor's vertical so that it
- * rises by an angle: KITTI's intrinsic calibration is off by 0.205 degrees (Deschaud,
- * IMLS-SLAM, ICRA 2018). Rigid per point: ranges do not change.
- * \param[in] angle radians, positive is up; kKittiVerticalAngle for KITTI */
+/** \brief By how much the vertical angles of KITTI's intrinsic calibration are too low,
+ * radians (Deschaud, IMLS-SLAM, ICRA 2018). */
+constexpr double kKittiVerticalAngle = 0.205 * 3.14159265358979323846 / 180.0;
+
+/** \brief Raises points by an angle as seen from a sensor whose vertical is z; ranges
+ * and azimuths do not change. */
+class PCL_NURBS_REGISTRATION_EXPORT VerticalTurn {
+public:
+  /** \param[in] angle radians, positive is up; kKittiVerticalAngle for KITTI */
+  explicit VerticalTurn(double angle);
+
+  /** \brief The raised point; one on the vertical, or not finite, as it is. */
+  Eigen::Vector3f
+  operator()(const Eigen::Vector3f& point) const;
+
+private:
+  double cosine_;
+  double sine_;
+};
+
+/** \brief VerticalTurn of all points of a scan. */
 PCL_NURBS_REGISTRATION_EXPORT void
 correctVerticalAngle(ScanPoints& points, double angle);
-
-constexpr double kKittiVerticalAngle = 0.205 * 3.14159265358979323846 / 180.0;
 
 /** \brief When each point was measured, 0 at the beginning of the scan and 1 at its
  * end, by its azimuth: for a laser that turns clockwise, seen from above, and begins

@@ -142,6 +142,10 @@ private:
   Eigen::Vector3d
   center(const Cell& cell) const;
 
+  /** Where the points of a voxel begin. */
+  std::size_t
+  firstPoint(std::int32_t voxel) const;
+
   std::int32_t
   find(const Cell& cell) const;
 
