@@ -3,12 +3,12 @@
 
 #include "trajectory_settings.h"
 
+#include "command_line.h"
 #include "run_tool.h"
 
 #include <boost/program_options.hpp>
 
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <stdexcept>
 #include <vector>
@@ -90,34 +90,15 @@ parseTrajectorySettings(int argc, char** argv)
   describe(settings, own);
   po::options_description shown;
   shown.add(common).add(own);
-  po::options_description all;
-  all.add(shown).add_options()("file", po::value(&files));
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  po::variables_map values;
-  const int style =
-      po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-  po::store(po::command_line_parser(argc, argv)
-                .options(all)
-                .positional(positional)
-                .style(style)
-                .run(),
-            values);
-  if (values.count("help") != 0) {
-    std::cout
-        << "nurbs_eval trajectory REFERENCE ESTIMATE\n"
-           "Absolute and relative errors of poses, and KITTI's over 100 to 800 m.\n\n"
-           "Files are KITTI's (12 numbers a line) or TUM's (stamp x y z qx qy qz "
-           "qw).\nPoses are paired by time; those of KITTI files without times by "
-           "their number.\n"
-        << shown;
+  const CommandTexts texts{
+      "nurbs_eval",
+      "nurbs_eval trajectory REFERENCE ESTIMATE\n"
+      "Absolute and relative errors of poses, and KITTI's over 100 to 800 m.\n\n"
+      "Files are KITTI's (12 numbers a line) or TUM's (stamp x y z qx qy qz qw).\n"
+      "Poses are paired by time; those of KITTI files without times by their number.\n",
+      ""};
+  if (!parseCommandLine(argc, argv, texts, shown, &files))
     return std::nullopt;
-  }
-  if (values.count("version") != 0) {
-    std::cout << versionText("nurbs_eval");
-    return std::nullopt;
-  }
-  po::notify(values);
   if (files.size() != 2)
     throw ToolError(kUsage, "two files are needed: REFERENCE ESTIMATE (see --help)");
   settings.reference = files[0];

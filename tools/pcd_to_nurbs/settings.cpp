@@ -3,6 +3,7 @@
 
 #include "settings.h"
 
+#include "command_line.h"
 #include "run_tool.h"
 #include "settings_checks.h"
 
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <map>
 
 namespace pcl_nurbs_tools {
@@ -254,35 +254,17 @@ parseSettings(int argc, char** argv)
   addOutputOptions(settings, raw, output);
   po::options_description shown;
   shown.add(common).add(input).add(fit).add(output);
-  po::options_description all;
-  all.add(shown).add_options()("file", po::value(&files));
-  po::positional_options_description positional;
-  positional.add("file", -1);
-  po::variables_map values;
-  const int style =
-      po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-  po::store(po::command_line_parser(argc, argv)
-                .options(all)
-                .positional(positional)
-                .style(style)
-                .run(),
-            values);
-  if (values.count("help") != 0) {
-    std::cout << "pcd_to_nurbs IN [OUT...]\n"
-                 "Turn a point cloud into trimmed NURBS surfaces.\n\n"
-                 "IN   .pcd, .ply, KITTI .bin, or a 16-bit depth .png\n"
-                 "OUT  .nurbs .json .obj .ply .png, as many as wanted; without any\n"
-                 "     NAME.nurbs and NAME.png in the current folder\n"
-              << shown
-              << "\nExit codes: 0 done, 1 wrong usage, 2 input unreadable or invalid,\n"
-                 "3 no surface found, 4 output could not be written.\n";
+  const CommandTexts texts{
+      "pcd_to_nurbs",
+      "pcd_to_nurbs IN [OUT...]\n"
+      "Turn a point cloud into trimmed NURBS surfaces.\n\n"
+      "IN   .pcd, .ply, KITTI .bin, or a 16-bit depth .png\n"
+      "OUT  .nurbs .json .obj .ply .png, as many as wanted; without any\n"
+      "     NAME.nurbs and NAME.png in the current folder\n",
+      "\nExit codes: 0 done, 1 wrong usage, 2 input unreadable or invalid,\n"
+      "3 no surface found, 4 output could not be written.\n"};
+  if (!parseCommandLine(argc, argv, texts, shown, &files))
     return std::nullopt;
-  }
-  if (values.count("version") != 0) {
-    std::cout << versionText("pcd_to_nurbs");
-    return std::nullopt;
-  }
-  po::notify(values);
   interpret(raw, settings);
   nameOutputs(std::move(files), settings);
   checkSettings(settings);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
-
 //
 // simulate_scans: a drive through a made-up town, as a data set with exact truth.
 

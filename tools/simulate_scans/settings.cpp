@@ -3,6 +3,7 @@
 
 #include "settings.h"
 
+#include "command_line.h"
 #include "run_tool.h"
 
 #include <pcl/mapping/kitti_calibration.h>
@@ -10,7 +11,6 @@
 #include <boost/program_options.hpp>
 
 #include <cmath>
-#include <iostream>
 #include <map>
 
 namespace pcl_nurbs_tools {
@@ -143,28 +143,14 @@ parseSettings(int argc, char** argv, SimulationSettings& settings)
   describeSensor(settings, sensor);
   describeOutput(settings, output);
   options.add(drive).add(sensor).add(output);
-  const int style =
-      po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-  po::variables_map values;
-  po::store(po::command_line_parser(argc, argv)
-                .options(options)
-                .positional({})
-                .style(style)
-                .run(),
-            values);
-  if (values.count("help") != 0) {
-    std::cout
-        << "simulate_scans --out FOLDER\n"
-           "Drive through a made-up town of exact surfaces and write what a laser\n"
-           "or a depth camera sees, with the true poses.\n"
-        << options;
+  const CommandTexts texts{
+      "simulate_scans",
+      "simulate_scans --out FOLDER\n"
+      "Drive through a made-up town of exact surfaces and write what a laser\n"
+      "or a depth camera sees, with the true poses.\n",
+      ""};
+  if (!parseCommandLine(argc, argv, texts, options, nullptr))
     return false;
-  }
-  if (values.count("version") != 0) {
-    std::cout << versionText("simulate_scans");
-    return false;
-  }
-  po::notify(values);
   requireSensible(settings);
   settings.simulation.threads = resolveThreads(settings.common.threads);
   settings.simulation.noise = !settings.exact;
