@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(Boost 1.74 REQUIRED COMPONENTS program_options)
+find_package(Boost 1.74 REQUIRED COMPONENTS iostreams program_options)
 find_package(Ceres 2.1 REQUIRED)
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED) # as Ceres uses
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+find_library(CCOLAMD_LIBRARY ccolamd REQUIRED)
 find_package(PCL 1.12 REQUIRED COMPONENTS common search io registration QUIET)
 find_package(nlohmann_json 3.9 REQUIRED)
 find_package(PNG REQUIRED)
