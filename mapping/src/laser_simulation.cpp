@@ -77,13 +77,20 @@ public:
     const Eigen::Isometry3d pose = view_.drive.sensorPose(time);
     const double azimuth = 2.0 * M_PI * ((column + 0.5) / laser_.columns - 0.5);
     const Eigen::Vector3d ahead(std::cos(azimuth), -std::sin(azimuth), 0.0);
-    for (std::size_t row = 0; row < laser_.elevations.size(); ++row) {
-      const double elevation = laser_.elevations[row];
-      const Eigen::Vector3d beam =
-          std::cos(elevation) * ahead + std::sin(elevation) * Eigen::Vector3d::UnitZ();
+    const std::size_t rows = laser_.elevations.size();
+    beams_.clear();
+    directions_.clear();
+    for (const double elevation : laser_.elevations) {
+      beams_.push_back(std::cos(elevation) * ahead +
+                       std::sin(elevation) * Eigen::Vector3d::UnitZ());
+      directions_.emplace_back(pose.linear() * beams_.back());
+    }
+    hits_.assign(rows, {laser_.max_range, BeamHit::kNothing});
+    town.castFan(pose.translation(), directions_, laser_.min_range, hits_);
+    for (std::size_t row = 0; row < rows; ++row) {
       const std::size_t i = row * static_cast<std::size_t>(laser_.columns) +
                             static_cast<std::size_t>(column);
-      measure({pose.translation(), pose.linear() * beam}, beam, town, i);
+      measure({pose.translation(), directions_[row]}, beams_[row], hits_[row], town, i);
       if (!result_.scan.point_times.empty())
         result_.scan.point_times[i] = static_cast<float>(offset);
     }
@@ -93,10 +100,10 @@ private:
   void
   measure(const Beam& ray,
           const Eigen::Vector3d& beam,
+          const BeamHit& hit,
           const TownView& town,
           std::size_t i)
   {
-    const BeamHit hit = town.cast(ray, laser_.min_range, laser_.max_range);
     if (hit.surface == BeamHit::kNothing)
       return;
     const double cosine = town.cosine(ray, hit);
@@ -118,6 +125,9 @@ private:
   const SensorView& view_;
   const LaserModel& laser_;
   SimulatedScan& result_;
+  std::vector<Eigen::Vector3d> beams_;      // in the sensor's frame
+  std::vector<Eigen::Vector3d> directions_; // in the world
+  std::vector<BeamHit> hits_;
 };
 
 } // namespace
@@ -179,7 +189,6 @@ scanWithLaser(const SensorView& view, const LaserModel& laser)
   result.scan.geometry = laser.geometry();
   if (view.options.motion_distortion)
     result.scan.point_times.assign(result.surfaces.size(), 0.0F);
-  LaserScan scan(view, laser, result);
   const TownView town(view.drive.town(),
                       view.drive.sensorPose(stamp).translation(),
                       laser.max_range,
@@ -187,6 +196,7 @@ scanWithLaser(const SensorView& view, const LaserModel& laser)
 #pragma omp parallel num_threads(view.threads)
   {
     TownView own = town;
+    LaserScan scan(view, laser, result);
 #pragma omp for schedule(dynamic, 16)
     for (int column = 0; column < laser.columns; ++column)
       scan.measureColumn(column, own);

@@ -18,9 +18,13 @@ public:
   void
   moveTo(double time);
 
-  /** The first meeting of a ray with anything. */
-  BeamHit
-  cast(const Beam& ray, double near, double far) const;
+  /** The first meetings of rays from one point with anything, as
+   * PrimitiveTree::castFan(). The rays are expected to lie in one plane. */
+  void
+  castFan(const Eigen::Vector3d& origin,
+          const std::vector<Eigen::Vector3d>& directions,
+          double near,
+          std::vector<BeamHit>& hits) const;
 
   /** |cos| of the angle between a ray and the normal of the surface it meets. */
   double
@@ -37,6 +41,9 @@ private:
     const Mover* mover;
     std::optional<Eigen::Isometry3d> pose;
   };
+
+  void
+  castAtBody(const Body& body, const Beam& ray, double near, BeamHit& hit) const;
 
   const Town& town_;
   std::vector<Body> bodies_;
