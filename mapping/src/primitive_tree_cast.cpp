@@ -102,20 +102,20 @@ private:
   Four
   entries(const Node& node, Eigen::Index group) const
   {
-    const auto low_x = (node.low.x() - origin_.x()) * inverse_x_.col(group);
-    const auto high_x = (node.high.x() - origin_.x()) * inverse_x_.col(group);
-    const auto low_y = (node.low.y() - origin_.y()) * inverse_y_.col(group);
-    const auto high_y = (node.high.y() - origin_.y()) * inverse_y_.col(group);
-    const auto low_z = (node.low.z() - origin_.z()) * inverse_z_.col(group);
-    const auto high_z = (node.high.z() - origin_.z()) * inverse_z_.col(group);
-    const Four in = low_x.min(high_x)
-                        .max(low_y.min(high_y))
-                        .max(low_z.min(high_z))
-                        .max(static_cast<float>(near_));
-    const Four out = low_x.max(high_x)
-                         .min(low_y.max(high_y))
-                         .min(low_z.max(high_z))
-                         .min(far_.col(group));
+    const Four low_x = (node.low.x() - origin_.x()) * inverse_x_.col(group);
+    const Four high_x = (node.high.x() - origin_.x()) * inverse_x_.col(group);
+    const Four low_y = (node.low.y() - origin_.y()) * inverse_y_.col(group);
+    const Four high_y = (node.high.y() - origin_.y()) * inverse_y_.col(group);
+    const Four low_z = (node.low.z() - origin_.z()) * inverse_z_.col(group);
+    const Four high_z = (node.high.z() - origin_.z()) * inverse_z_.col(group);
+    const Four in_x = low_x.min(high_x);
+    const Four in_y = low_y.min(high_y);
+    const Four in_z = low_z.min(high_z).max(static_cast<float>(near_));
+    const Four in = in_x.max(in_y).max(in_z);
+    const Four out_x = low_x.max(high_x);
+    const Four out_y = low_y.max(high_y);
+    const Four out_z = low_z.max(high_z).min(far_.col(group));
+    const Four out = out_x.min(out_y).min(out_z);
     return (in <= out).select(in, Four::Constant(kNever));
   }
 
