@@ -49,12 +49,18 @@ private:
   std::vector<Body> bodies_;
 };
 
+/** Which beams of a scan meet the vehicle itself, beam by beam and column by column;
+ * empty if it has no parts. */
+std::vector<bool>
+beamsOnOwnBody(const LaserModel& laser);
+
 /** What a sensor sees with; poses are those of the sensor. */
 struct SensorView {
   const SimulatedDrive& drive;
   const SimulationOptions& options;
   std::size_t index;
   int threads;
+  const std::vector<bool>& hidden; /**< as beamsOnOwnBody() */
 };
 
 /** A scan without any return, of so many points. */

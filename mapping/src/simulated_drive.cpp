@@ -156,6 +156,8 @@ SimulatedDrive::SimulatedDrive(const Trajectory& drive,
     throw std::invalid_argument("SimulatedDrive: the number of threads is negative");
   town_ = std::make_unique<Town>(drive, options.town);
   truth_ = sensorPoses(town_->drive(), options.T_body_sensor);
+  if (const auto* laser = std::get_if<LaserModel>(&sensor_))
+    hidden_ = beamsOnOwnBody(*laser);
 }
 
 SimulatedDrive::~SimulatedDrive() = default;
@@ -188,7 +190,7 @@ SimulatedDrive::simulate(std::size_t index) const
   stamp(index); // throws when there is no such scan
   const auto cores = static_cast<int>(std::thread::hardware_concurrency());
   const int threads = options_.threads > 0 ? options_.threads : std::max(1, cores);
-  const SensorView view{*this, options_, index, threads};
+  const SensorView view{*this, options_, index, threads, hidden_};
   if (const auto* laser = std::get_if<LaserModel>(&sensor_))
     return scanWithLaser(view, *laser);
   return scanWithCamera(view, std::get<DepthCameraModel>(sensor_));
