@@ -5,6 +5,7 @@
 
 #include "town_parts.h"
 #include "town_path.h"
+#include "town_plots.h"
 
 #include <array>
 #include <cmath>
@@ -66,8 +67,9 @@ Town::Town(const Trajectory& drive, const TownOptions& options) : drive_(drive)
   path_ = std::make_unique<TownPath>(drive_, options.sensor_height);
   TownParts parts;
   addGround(parts, *path_, options.seed);
-  addBuildings(parts, *path_, options.seed);
-  addFurniture(parts, *path_, options.seed);
+  TownPlots plots;
+  addBuildings(parts, *path_, plots, options.seed);
+  addFurniture(parts, *path_, plots, options.seed);
   const auto still = static_cast<std::ptrdiff_t>(parts.primitives.size());
   if (options.movers)
     movers_ = makeMovers(parts, *path_, drive_, options.seed);

@@ -48,7 +48,7 @@ addRoad(TownParts& parts, const CrossSection& start, const CrossSection& end)
                                    section.at(0.0, kCrown),
                                    section.at(-RoadShape::kHalfWidth, -kCrown)};
   };
-  parts.use(SurfaceKind::Road, 0.22);
+  parts.use(SurfaceKind::Road, 0.42);
   parts.add(RuledPatch{parabola(start), parabola(end)});
 }
 
@@ -70,9 +70,9 @@ addSidewalk(TownParts& parts,
                                    end.at(from, rise_from),
                                    end.at(to, rise_to)));
   };
-  parts.use(SurfaceKind::Curb, 0.4);
+  parts.use(SurfaceKind::Curb, 0.5);
   strip(edge, low, inner, low + kCurb);
-  parts.use(SurfaceKind::Sidewalk, 0.35);
+  parts.use(SurfaceKind::Sidewalk, 0.45);
   strip(inner, low + kCurb, outer, high);
   strip(outer, high, outer, high - kSkirt);
 }
@@ -119,7 +119,7 @@ private:
   std::pair<Vector3d, bool>
   make(const Index& index) const
   {
-    constexpr double kReach = 48.0;
+    constexpr double kReach = 62.0;
     constexpr double kBelowRoad = 0.4;
     constexpr double kRoughness = 0.05;
     const Vector2d place = kCell * Vector2d(static_cast<double>(index.first),
@@ -142,7 +142,7 @@ private:
 void
 addCells(TownParts& parts, const TownPath& path, std::uint64_t seed)
 {
-  constexpr std::int64_t kReach = 12; // cells
+  constexpr std::int64_t kReach = 16; // cells
   GroundLattice lattice(path, seed);
   std::map<GroundLattice::Index, bool> done;
   const auto addCell = [&](std::int64_t x, std::int64_t y) {
@@ -155,7 +155,7 @@ addCells(TownParts& parts, const TownPath& path, std::uint64_t seed)
     if (a.second || b.second || c.second || d.second)
       parts.add(RuledPatch::bilinear(a.first, b.first, c.first, d.first));
   };
-  parts.use(SurfaceKind::Ground, 0.35);
+  parts.use(SurfaceKind::Ground, 0.5);
   for (std::size_t i = 0; i < path.nodes().size(); i += 3) {
     const Vector3d& ground = path.nodes()[i].ground;
     const auto x =

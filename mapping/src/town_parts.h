@@ -12,6 +12,7 @@ namespace pcl {
 namespace nurbs {
 
 class TownPath;
+class TownPlots;
 
 /** Collects the surfaces of a town, object by object, each built in a frame of its own
  * (x to the right along the front, y away from it, z up). */
@@ -34,12 +35,13 @@ public:
     loss_ = 0.0F;
   }
 
-  /** As use(), for window panes. */
+  /** As use(), for panes that give nothing back of a share of the beams: much of a
+   * car, less of a house with curtains. */
   void
-  useGlass(SurfaceKind kind)
+  useGlass(SurfaceKind kind, double loss)
   {
-    use(kind, 0.06);
-    loss_ = 0.85F;
+    use(kind, 0.15);
+    loss_ = static_cast<float>(loss);
   }
 
   void
@@ -99,13 +101,19 @@ uprightFrame(const Eigen::Vector3d& place, const Eigen::Vector2d& x_axis);
 void
 addGround(TownParts& parts, const TownPath& path, std::uint64_t seed);
 
-/** Houses and garden walls on both sides. */
+/** Houses and garden walls on both sides; their plots are taken. */
 void
-addBuildings(TownParts& parts, const TownPath& path, std::uint64_t seed);
+addBuildings(TownParts& parts,
+             const TownPath& path,
+             TownPlots& plots,
+             std::uint64_t seed);
 
-/** Parked cars, poles, trees, hedges and pavilions. */
+/** Parked cars, poles, trees, hedges and pavilions, where no plot is taken. */
 void
-addFurniture(TownParts& parts, const TownPath& path, std::uint64_t seed);
+addFurniture(TownParts& parts,
+             const TownPath& path,
+             const TownPlots& plots,
+             std::uint64_t seed);
 
 /** A house with its front from the origin along x. */
 void

@@ -82,7 +82,7 @@ public:
   Ground
   groundAt(const Eigen::Vector2d& place) const;
 
-  static constexpr double kFar = 30.0;
+  static constexpr double kFar = 64.0;
 
 private:
   void
