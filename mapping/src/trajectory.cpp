@@ -5,11 +5,14 @@
 #include <pcl/surface/nurbs/atomic_file.h>
 
 #include "input_file.h"
+#include "pose_interpolation.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 namespace pcl {
 namespace nurbs {
@@ -229,6 +232,25 @@ writeTumTrajectory(const std::string& path, const Trajectory& trajectory)
                              q.z(),
                              q.w());
       });
+}
+
+StampedPose
+poseAt(const Trajectory& trajectory, double time)
+{
+  if (trajectory.empty())
+    throw std::invalid_argument("poseAt: the trajectory is empty");
+  const auto after = std::lower_bound(
+      trajectory.begin(),
+      trajectory.end(),
+      time,
+      [](const StampedPose& pose, double moment) { return pose.stamp < moment; });
+  if (after == trajectory.begin() || after == trajectory.end())
+    return {time,
+            after == trajectory.end() ? trajectory.back().T_world_body
+                                      : after->T_world_body};
+  if (after->stamp == time)
+    return *after;
+  return {time, interpolatePose(*(after - 1), *after, time)};
 }
 
 std::vector<double>

@@ -3,7 +3,7 @@
 
 #include "trajectory_command.h"
 
-#include "line_plot.h"
+#include "path_plot.h"
 #include "run_tool.h"
 #include "trajectory_settings.h"
 
@@ -127,31 +127,6 @@ print(const TrajectorySettings& settings, const nlohmann::json& report)
     std::printf("KITTI: the drive is shorter than 100 m\n");
 }
 
-/** Positions seen along the axis of least extent, so that a drive is seen from above in
- * a camera's frame as in a map's. */
-LinePlot
-pathPlot(const Evaluation& evaluation)
-{
-  static const char* const names[] = {"x (m)", "y (m)", "z (m)"};
-  Eigen::AlignedBox3d box;
-  for (const StampedPose& pose : evaluation.pair.reference)
-    box.extend(pose.T_world_body.translation());
-  Eigen::Index least = 0;
-  box.sizes().minCoeff(&least);
-  const Eigen::Index across = least == 0 ? 1 : 0;
-  const Eigen::Index up = least == 2 ? 1 : 2;
-  LinePlot plot{"Paths", names[across], names[up], true, {}};
-  const auto add = [&](const char* name, const Trajectory& trajectory) {
-    plot.lines.push_back({name, {}});
-    for (const StampedPose& pose : trajectory)
-      plot.lines.back().points.emplace_back(pose.T_world_body.translation()(across),
-                                            pose.T_world_body.translation()(up));
-  };
-  add("reference", evaluation.pair.reference);
-  add("estimate", evaluation.pair.estimate);
-  return plot;
-}
-
 LinePlot
 errorPlot(const Evaluation& evaluation)
 {
@@ -189,7 +164,9 @@ writePlots(const std::filesystem::path& folder, const Evaluation& evaluation)
   if (error)
     throw ToolError(kCannotWrite,
                     "cannot write " + folder.string() + ": " + error.message());
-  writePlot((folder / "path.png").string(), pathPlot(evaluation));
+  writePlot((folder / "path.png").string(),
+            pathPlot({{"reference", evaluation.pair.reference},
+                      {"estimate", evaluation.pair.estimate}}));
   writePlot((folder / "errors.png").string(), errorPlot(evaluation));
   if (!evaluation.segments.empty())
     writePlot((folder / "segments.png").string(), segmentPlot(evaluation));

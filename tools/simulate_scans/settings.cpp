@@ -6,20 +6,12 @@
 #include "command_line.h"
 #include "run_tool.h"
 
-#include <pcl/mapping/kitti_calibration.h>
-
 #include <boost/program_options.hpp>
-
-#include <cmath>
-#include <map>
 
 namespace pcl_nurbs_tools {
 namespace {
 
 namespace po = boost::program_options;
-using namespace pcl::nurbs;
-
-constexpr double kDegree = M_PI / 180.0;
 
 void
 describeDrive(SimulationSettings& s, po::options_description& description)
@@ -57,7 +49,7 @@ describeSensor(SimulationSettings& s, po::options_description& description)
       po::value(&s.columns)->default_value(0),
       "beams of a laser per turn and row; 0 for the sensor's own")(
       "height",
-      po::value(&s.simulation.town.sensor_height)->default_value(1.73, "1.73"),
+      po::value(&s.sensor_height)->default_value(1.73, "1.73"),
       "of the poses above the road, metres")(
       "yaw",
       po::value(&s.yaw)->default_value(-70.0, "-70"),
@@ -92,41 +84,9 @@ requireSensible(const SimulationSettings& s)
 {
   if (s.out.empty())
     throw ToolError(kUsage, "--out is needed (see --help)");
-  if (s.frame != "camera" && s.frame != "vehicle")
-    throw ToolError(kUsage, "--frame must be camera or vehicle");
-  if (s.columns < 0 || s.columns > 65536)
-    throw ToolError(kUsage, "--columns must be 0 to 65536");
-  if (s.trajectory.empty() && !(s.times.empty() && s.calib.empty()))
-    throw ToolError(kUsage, "--times and --calib go with --trajectory");
-  if (!std::isfinite(s.yaw) || !std::isfinite(s.right))
-    throw ToolError(kUsage, "--yaw and --right must be finite");
   const std::string& sequence = s.writing.sequence;
   if (sequence.empty() || sequence.find('/') != std::string::npos || sequence[0] == '.')
     throw ToolError(kUsage, "--sequence must be the name of a folder");
-}
-
-/** Poses by their number get the times of a sensor that never stops. */
-void
-spreadTimes(Trajectory& drive, double period)
-{
-  for (std::size_t k = 0; k < drive.size(); ++k)
-    if (drive[k].stamp != static_cast<double>(k))
-      return;
-  for (StampedPose& pose : drive)
-    pose.stamp *= period;
-}
-
-/** A camera's axes beside the path. */
-Eigen::Isometry3d
-cameraMount(const SimulationSettings& s)
-{
-  Eigen::Matrix3d axes;
-  axes << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
-  Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
-  mount.linear() =
-      Eigen::AngleAxisd(s.yaw * kDegree, Eigen::Vector3d::UnitZ()).matrix() * axes;
-  mount.translation().y() = -s.right;
-  return mount;
 }
 
 } // namespace
@@ -154,57 +114,9 @@ parseSettings(int argc, char** argv, SimulationSettings& settings)
   requireSensible(settings);
   settings.simulation.threads = resolveThreads(settings.common.threads);
   settings.simulation.noise = !settings.exact;
-  if (settings.sensor == "kinect")
-    settings.simulation.T_body_sensor = cameraMount(settings);
+  settings.simulation.town.sensor_height = settings.sensor_height;
+  settings.simulation.T_body_sensor = mountOf(settings);
   return true;
-}
-
-Trajectory
-driveOf(const SimulationSettings& settings)
-{
-  if (settings.trajectory.empty()) {
-    static const std::map<std::string, CircuitShape> shapes = {
-        {"block", CircuitShape::Block},
-        {"oval", CircuitShape::Oval},
-        {"eight", CircuitShape::Eight}};
-    const auto shape = shapes.find(settings.circuit);
-    if (shape == shapes.end())
-      throw ToolError(kUsage, "--circuit must be block, oval or eight");
-    CircuitOptions options;
-    options.shape = shape->second;
-    options.size = settings.size;
-    options.speed = settings.speed;
-    options.height = settings.simulation.town.sensor_height;
-    return makeCircuit(options);
-  }
-  Trajectory drive = readTrajectory(settings.trajectory, settings.times);
-  if (settings.times.empty())
-    spreadTimes(drive, 0.1);
-  if (settings.frame == "camera") {
-    const Eigen::Isometry3d T_camera_laser = settings.calib.empty()
-                                                 ? nominalKittiCalibration()
-                                                 : readKittiCalibration(settings.calib);
-    drive = inLaserFrame(drive, T_camera_laser);
-  }
-  return drive;
-}
-
-SimulatedDrive::Sensor
-sensorOf(const SimulationSettings& settings)
-{
-  if (settings.sensor == "kinect")
-    return DepthCameraModel::kinect();
-  static const std::map<std::string, LaserModel (*)()> lasers = {
-      {"hdl64", LaserModel::hdl64},
-      {"hdl32", LaserModel::hdl32},
-      {"vlp16", LaserModel::vlp16}};
-  const auto found = lasers.find(settings.sensor);
-  if (found == lasers.end())
-    throw ToolError(kUsage, "--sensor must be hdl64, hdl32, vlp16 or kinect");
-  LaserModel laser = found->second();
-  if (settings.columns > 0)
-    laser.columns = settings.columns;
-  return laser;
 }
 
 } // namespace pcl_nurbs_tools
