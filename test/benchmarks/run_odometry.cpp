@@ -87,10 +87,11 @@ memoryMegabytes(const std::string& what)
 void
 log(std::ostream& stream, std::size_t scan, const OdometryResult& result, double ms)
 {
-  stream << scan << " tracked " << result.tracked << " iterations "
+  stream << scan << " tracked " << result.tracked << " searched " << result.searched << " iterations "
          << result.match.iterations << " pairs " << result.match.correspondences
-         << " rmse " << result.match.rmse << " threshold " << result.threshold
-         << " unsupported " << result.match.degeneracy.unsupported << " least "
+         << " inliers " << result.match.inlier_share << " rmse " << result.match.rmse
+         << " threshold " << result.threshold << " unsupported "
+         << result.match.degeneracy.unsupported << " least "
          << result.match.degeneracy.support[0] << " ms " << ms << '\n';
 }
 
