@@ -25,8 +25,6 @@ constexpr double kKernelSigmas = 3.0;
  * a rough guess is not taken for outliers (graduated non-convexity). */
 constexpr double kFirstWidth = 1.0;
 constexpr double kShrink = 0.6;
-/** Cells of the cluster-robust covariance, in voxels. */
-constexpr double kClusterVoxels = 2.0;
 
 struct NormalEquations {
   TangentMatrix matrix = TangentMatrix::Zero();
@@ -148,7 +146,7 @@ matchScan(const VoxelMap& map,
                   scan,
                   kernelFor(pairs, options.kernel, size, result.iterations),
                   options,
-                  kClusterVoxels * size,
+                  size,
                   result);
   if (result.degeneracy.unsupported == 6) { // too few pairs, or all with one point
     result.converged = false;

@@ -4,6 +4,8 @@
 #include <pcl/registration/scan_odometry.h>
 #include <pcl/registration/scan_preprocessing.h>
 
+#include "pose_search.h"
+
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -16,6 +18,17 @@ namespace {
 constexpr int kMostLost = 5;
 /** The map is cleared of far points after so much way, as a share of the range. */
 constexpr double kPruneShare = 0.05;
+/** With so much of a scan on the map there is no better place for it ... */
+constexpr double kSureShare = 0.7;
+/** ... with less than this it may be farther away than turns and a short way ... */
+constexpr double kDoubtfulShare = 0.4;
+/** ... and with less than this it is lost. */
+constexpr double kLostShare = 0.25;
+/** Another place must fit so much better than the predicted one. */
+constexpr double kBetterShare = 0.05;
+/** Cells of the search, in voxels, and starts that it gives. */
+constexpr double kSearchVoxels = 3.0;
+constexpr std::size_t kSearchStarts = 3;
 
 void
 check(const OdometryOptions& options)
@@ -124,14 +137,51 @@ ScanOdometry::process(const ScanPoints& points, const std::vector<float>& times)
 }
 
 void
+ScanOdometry::tryStart(const ScanPoints& scan,
+                       const Eigen::Isometry3d& start,
+                       OdometryResult& result) const
+{
+  MatchOptions options = options_.match;
+  options.max_distance = result.threshold;
+  MatchResult match = matchScan(map_, scan, {}, start, options);
+  if (!match.converged)
+    return;
+  if (result.match.converged &&
+      match.inlier_share < result.match.inlier_share + kBetterShare)
+    return;
+  result.match = std::move(match);
+}
+
+void
+ScanOdometry::searchStarts(const ScanPoints& scan,
+                           const PoseSearchRange& range,
+                           OdometryResult& result) const
+{
+  result.searched = true;
+  const Poses starts = searchPoses(map_,
+                                   scan,
+                                   {pose_, result.pose},
+                                   range,
+                                   kSearchVoxels * options_.map.voxel_size,
+                                   kSearchStarts,
+                                   options_.threads);
+  for (const Eigen::Isometry3d& start : starts)
+    if (result.match.inlier_share < kSureShare)
+      tryStart(scan, start, result);
+}
+
+void
 ScanOdometry::track(OdometryResult& result)
 {
-  MatchOptions match = options_.match;
-  match.max_distance = result.threshold = threshold_.value();
   const ScanPoints scan = voxelSubsample(result.points, options_.match_spacing);
   const Eigen::Isometry3d predicted = result.pose;
-  result.match = matchScan(map_, scan, {}, predicted, match);
-  result.tracked = result.match.converged;
+  result.threshold = threshold_.value();
+  tryStart(scan, predicted, result);
+  if (result.match.inlier_share < kSureShare)
+    searchStarts(scan, {}, result);
+  if (result.match.inlier_share < kDoubtfulShare)
+    searchStarts(scan, {2.0, 0.35, 8, 2}, result);
+  result.tracked = result.match.converged && result.match.inlier_share >= kLostShare;
   if (!result.tracked)
     return;
   result.pose = result.match.pose;

@@ -50,12 +50,16 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   rgbd();
 };
 
+struct PoseSearchRange;
+
 /** \brief What became of a scan. */
 struct OdometryResult {
   /** From the sensor's frame to that of the first scan. */
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   /** Whether the pose was measured; else it is the prediction. */
   bool tracked = false;
+  /** Whether the prediction did not lead there and the pose was searched for. */
+  bool searched = false;
   bool keyframe = false;
   /** Largest distance of pairs that was used. */
   double threshold = 0.0;
@@ -111,6 +115,18 @@ private:
 
   void
   track(OdometryResult& result);
+
+  /** Align from a start; keep it when more of the scan fits than at what is known. */
+  void
+  tryStart(const ScanPoints& scan,
+           const Eigen::Isometry3d& start,
+           OdometryResult& result) const;
+
+  /** Look for starts around the last pose and the predicted one, and try them. */
+  void
+  searchStarts(const ScanPoints& scan,
+               const PoseSearchRange& range,
+               OdometryResult& result) const;
 
   void
   insert(const OdometryResult& result);
