@@ -15,11 +15,14 @@ namespace nurbs {
 /** Edges of a graph that survive, one flag per direction and cell. */
 class KeptEdges {
 public:
-  /** Keep what is neither of low weight nor over a depth jump. */
+  /** Keep what is neither of low weight nor over a depth jump.
+   * \param[in] direction_noise deviation of each cell's depth that errors of its
+   * direction cause, if known */
   KeptEdges(const GridPoints& points,
             const GridGraph& graph,
             const SensorNoise& noise,
-            const ConnectedGroupsOptions& options);
+            const ConnectedGroupsOptions& options,
+            const std::vector<float>& direction_noise = {});
 
   const GridGraph&
   graph() const

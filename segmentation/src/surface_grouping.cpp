@@ -37,18 +37,45 @@ requireValid(const GridPoints& points,
     throw std::invalid_argument("groupSurfaces: there must be a thread");
 }
 
-/** Blocks, coarse to fine, about as wide as high on a surface that faces the sensor. */
-std::vector<BlockSize>
-blockSizes(const GridGeometry& grid)
+/** Share of the cells that hold a point where there are any. */
+double
+fillOf(const GridPoints& points)
 {
-  constexpr int kFine = 4;
+  constexpr int kSide = 8;
+  const int width = points.geometry.width;
+  const int height = points.geometry.height;
+  std::size_t valid = 0;
+  std::size_t all = 0;
+  for (int top = 0; top < height; top += kSide)
+    for (int left = 0; left < width; left += kSide) {
+      std::size_t here = 0;
+      std::size_t cells = 0;
+      for (int row = top; row < std::min(top + kSide, height); ++row)
+        for (int column = left; column < std::min(left + kSide, width); ++column) {
+          here += points.valid(static_cast<std::size_t>(row * width + column)) ? 1 : 0;
+          ++cells;
+        }
+      valid += here;
+      all += here > 0 ? cells : 0;
+    }
+  return static_cast<double>(std::max<std::size_t>(valid, 1)) /
+         static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+/** Blocks, coarse to fine, about as wide as high on a surface that faces the sensor,
+ * and the larger the fewer cells hold a point. */
+std::vector<BlockSize>
+blockSizes(const GridPoints& points)
+{
+  const GridGeometry& grid = points.geometry;
+  const int fine = 4 * static_cast<int>(std::lround(std::sqrt(1.0 / fillOf(points))));
   constexpr double kMostStretch = 4.0;
   const double across = grid.columnSpacing(1.0);
   const double down = grid.rowSpacing(1.0);
   double stretch = across > 0.0 && down > 0.0 ? down / across : 1.0;
   stretch = std::clamp(stretch, 1.0 / kMostStretch, kMostStretch);
-  const int columns = kFine * std::max(1, static_cast<int>(std::lround(stretch)));
-  const int rows = kFine * std::max(1, static_cast<int>(std::lround(1.0 / stretch)));
+  const int columns = fine * std::max(1, static_cast<int>(std::lround(stretch)));
+  const int rows = fine * std::max(1, static_cast<int>(std::lround(1.0 / stretch)));
   constexpr int kManyRows = 160; // fewer are too few for coarse blocks
   if (grid.height < kManyRows)
     return {{columns, rows}};
@@ -121,11 +148,16 @@ groupSurfaces(const GridPoints& points,
               std::vector<SurfaceGroup>* groups)
 {
   requireValid(points, graph, options);
-  const std::vector<BlockSize> sizes = blockSizes(points.geometry);
+  const std::vector<BlockSize> sizes = blockSizes(points);
   ViewChart chart(points, noise, graph, options.threads);
   const double scale = measureNoiseScale(points, chart, sizes.front());
   chart.scaleNoise(scale);
-  const KeptEdges edges(points, graph, scaled(noise, scale), edgeOptions(options));
+  chart.measureDirections(graph, options.threads);
+  const KeptEdges edges(points,
+                        graph,
+                        scaled(noise, scale),
+                        edgeOptions(options),
+                        chart.directionNoise());
   SurfaceNodes nodes(points, edges, chart);
   nodes.addBlocks(sizes.front(), options.fit_sigmas, options.threads);
   const double dispersion =

@@ -75,6 +75,13 @@ public:
   void
   scaleNoise(double factor);
 
+  /** \brief Measure by how much of a cell directions err, along rows and along columns,
+   * instead of the small share that is assumed: points of steep surfaces leave the line
+   * of their neighbours by it. O(cells).
+   * \throws std::invalid_argument when the graph belongs to other points */
+  void
+  measureDirections(const GridGraph& graph, int threads = 1);
+
   /** \brief A valid cell's point. O(1). */
   ViewSample
   sample(std::size_t cell) const;
@@ -90,6 +97,13 @@ public:
   /** \brief Standard deviation of a valid cell's value. */
   double
   sigma(std::size_t cell) const;
+
+  /** \brief Deviation of each cell's depth that errors of its direction cause. */
+  const std::vector<float>&
+  directionNoise() const
+  {
+    return direction_noise_;
+  }
 
   /** \brief Unit normal, in the grid's frame, of a surface at a direction. */
   Eigen::Vector3d
@@ -114,7 +128,7 @@ private:
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(); // of a height field
   double scale_ = 1.0;
   std::vector<int> choices_;
-  std::vector<float> slope_; // change of depth from cell to cell
+  std::vector<float> direction_noise_; // of the depth, per cell
 };
 
 /** \brief Sums over points from which the best polynomials follow: normal equations.
