@@ -52,9 +52,10 @@ LaserModel::hdl64()
   const std::vector<double> lower = evenElevations(-8.83, 0.5, 32);
   model.elevations.insert(model.elevations.end(), lower.begin(), lower.end());
   model.range_noise = 0.011;
-  model.beam_offset = 0.018;
+  model.beam_offset = 0.02;
   model.beam_gain = 0.15;
   model.random_loss = 0.003;
+  model.signal_range = 160.0;
   model.own_body = roofOfEstateCar();
   return model;
 }

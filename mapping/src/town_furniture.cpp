@@ -156,7 +156,7 @@ addStreetSide(Rows& rows, double side)
   const auto at = [&](double lateral) { return side * lateral; };
   rows.place({at(RoadShape::kParking), at(RoadShape::kParking), 5.6, 7.5, kOnRoad, 2.1},
              [](TownParts& parts, CounterRandom& random) {
-               if (random.chance(0.35))
+               if (random.chance(0.3))
                  addCar(parts, SurfaceKind::ParkedCar, random);
              });
   rows.place({at(kEdge + 0.4), at(kEdge + 0.4), 14.0, 40.0, 0.2, 2.5, 0.0}, addPole);
@@ -167,7 +167,7 @@ addStreetSide(Rows& rows, double side)
   rows.place({at(kEdge + 2.9), at(kEdge + 2.9), 5.0, 30.0, 2.0, 4.0, 0.6}, addHedge);
   rows.place({at(kEdge + 4.2), at(kEdge + 6.0), 120.0, 200.0, 3.0, 4.0, 2.0},
              addPavilion);
-  rows.place({at(kEdge + 8.0), at(kEdge + 50.0), 4.0, 14.0, 4.0, 6.0, 1.5},
+  rows.place({at(kEdge + 8.0), at(kEdge + 55.0), 3.0, 9.0, 4.0, 6.0, 1.5},
              [](TownParts& parts, CounterRandom& random) {
                addTree(parts, random.uniform(2.0, 4.0), random);
              });

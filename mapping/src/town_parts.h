@@ -119,6 +119,10 @@ addFurniture(TownParts& parts,
 void
 addHouse(TownParts& parts, double width, double depth, CounterRandom& random);
 
+/** The same with bare walls: a shed, a barn, a block of flats. */
+void
+addPlainHouse(TownParts& parts, double width, double depth, CounterRandom& random);
+
 /** A car that looks along x, the middle of its foot at the origin. */
 void
 addCar(TownParts& parts, SurfaceKind kind, CounterRandom& random);
