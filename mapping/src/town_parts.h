@@ -101,6 +101,14 @@ uprightFrame(const Eigen::Vector3d& place, const Eigen::Vector2d& x_axis);
 void
 addGround(TownParts& parts, const TownPath& path, std::uint64_t seed);
 
+/** A road between smooth walls under a vault. */
+void
+addTunnel(TownParts& parts, const TownPath& path);
+
+/** A level plane around the path, at the height of its first node. */
+void
+addSquare(TownParts& parts, const TownPath& path);
+
 /** Houses and garden walls on both sides; their plots are taken. */
 void
 addBuildings(TownParts& parts,
