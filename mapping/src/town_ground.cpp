@@ -196,7 +196,8 @@ addTunnel(TownParts& parts, const TownPath& path)
     addRoad(parts, start, end);
     parts.use(SurfaceKind::Wall, 0.4);
     for (const double edge : {RoadShape::kHalfWidth, -RoadShape::kHalfWidth})
-      if (path.driveClearance(start.at(edge, 0.0).head<2>()) > kRoom)
+      if (path.driveClearance(start.at(edge, 0.0).head<2>()) > kRoom &&
+          path.driveClearance(end.at(edge, 0.0).head<2>()) > kRoom)
         parts.add(RuledPatch::bilinear(start.at(edge, -kCrown),
                                        start.at(edge, kWall),
                                        end.at(edge, -kCrown),
