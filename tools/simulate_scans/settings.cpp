@@ -79,7 +79,10 @@ describeOutput(SimulationSettings& s, po::options_description& description)
       "seed", po::value(&s.simulation.town.seed)->default_value(1), "of the town")(
       "labels",
       po::bool_switch(&s.writing.labels),
-      "write kind and object of every point to labels/");
+      "write kind and object of every point to labels/")(
+      "overwrite",
+      po::bool_switch(&s.overwrite),
+      "remove the scans of an earlier run there, which is refused otherwise");
 }
 
 void
