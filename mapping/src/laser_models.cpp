@@ -27,14 +27,14 @@ std::vector<Eigen::AlignedBox3d>
 roofOfEstateCar()
 {
   std::vector<Eigen::AlignedBox3d> parts = {
-      {Eigen::Vector3d(-2.25, -0.95, -1.0), Eigen::Vector3d(-1.2, 0.95, -0.75)},
+      {Eigen::Vector3d(-2.2, -0.8, -1.0), Eigen::Vector3d(-1.2, 0.8, -0.75)},
       {Eigen::Vector3d(1.5, -0.75, -1.1), Eigen::Vector3d(2.2, 0.75, -0.845)},
       {Eigen::Vector3d(0.31, -1.08, -0.45), Eigen::Vector3d(0.65, -0.9, -0.31)}};
   for (const double side : {-1.0, 1.0}) {
     const Eigen::Vector3d post(-1.17, 0.59 * side, -0.5);
     const Eigen::Vector3d rail(-0.59, 0.81 * side, -0.46);
-    const Eigen::Vector3d half_post(0.08, 0.09, 0.205);
-    const Eigen::Vector3d half_rail(0.08, 0.06, 0.1);
+    const Eigen::Vector3d half_post(0.05, 0.08, 0.205);
+    const Eigen::Vector3d half_rail(0.05, 0.045, 0.1);
     parts.emplace_back(post - half_post, post + half_post);
     parts.emplace_back(rail - half_rail, rail + half_rail);
   }
@@ -52,9 +52,10 @@ LaserModel::hdl64()
   const std::vector<double> lower = evenElevations(-8.83, 0.5, 32);
   model.elevations.insert(model.elevations.end(), lower.begin(), lower.end());
   model.range_noise = 0.011;
-  model.beam_offset = 0.018;
+  model.beam_offset = 0.02;
   model.beam_gain = 0.15;
   model.random_loss = 0.003;
+  model.signal_range = 160.0;
   model.own_body = roofOfEstateCar();
   return model;
 }

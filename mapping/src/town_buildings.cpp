@@ -28,14 +28,14 @@ nextBlock(double arc, CounterRandom& random)
 {
   const double style = random.uniform();
   Block block;
-  if (style < 0.3) // old town: houses at the sidewalk
-    block = {0.0, random.uniform(0.1, 0.6), 0.4, 0.95, 0.85};
-  else if (style < 0.65) // front gardens
-    block = {0.0, random.uniform(2.5, 6.0), 1.0, 0.85, 0.4};
-  else if (style < 0.85) // an avenue
-    block = {0.0, random.uniform(6.0, 13.0), 1.5, 0.8, 0.3};
+  if (style < 0.35) // old town: houses at the sidewalk
+    block = {0.0, random.uniform(0.1, 0.6), 0.4, 0.97, 0.85};
+  else if (style < 0.75) // front gardens
+    block = {0.0, random.uniform(2.5, 6.0), 1.0, 0.9, 0.4};
+  else if (style < 0.92) // an avenue
+    block = {0.0, random.uniform(6.0, 13.0), 1.5, 0.85, 0.3};
   else // hardly built
-    block = {0.0, random.uniform(4.0, 12.0), 3.0, 0.25, 0.0};
+    block = {0.0, random.uniform(4.0, 12.0), 3.0, 0.4, 0.0};
   block.end = arc + random.uniform(50.0, 140.0);
   return block;
 }
@@ -78,18 +78,26 @@ public:
         arc += width + (touching ? 0.02 : random.uniform(2.0, 9.0));
         continue;
       }
-      const bool walled = random.chance(0.4) && buildWall(arc, width, side);
+      const bool walled = random.chance(0.6) && buildWall(arc, width, side);
       arc += walled ? width : random.uniform(3.0, 8.0);
     }
   }
 
-  /** Houses behind the gardens of those at the street. */
+  /** Plain buildings behind the gardens of the houses at the street. */
   void
-  buildBackground(double side, CounterRandom& random)
+  buildBackground(double side, double nearest, double farthest, CounterRandom& random)
   {
     const double end = path_.nodes().back().arc;
-    for (double arc = 0.0; arc < end; arc += random.uniform(8.0, 25.0))
-      build(arc, random.uniform(10.0, 20.0), side, random.uniform(20.0, 42.0), random);
+    for (double arc = 0.0; arc < end; arc += random.uniform(3.0, 9.0)) {
+      Plot plot = plotAt(
+          arc, random.uniform(6.0, 22.0), side, random.uniform(nearest, farthest));
+      plot.depth = random.uniform(4.0, 10.0);
+      if (plot.width < 4.0 || !isFree(plot))
+        continue;
+      plots_.add(plot);
+      parts_.beginObject(frameOf(plot));
+      addPlainHouse(parts_, plot.width, plot.depth, random);
+    }
   }
 
 private:
@@ -207,8 +215,10 @@ addBuildings(TownParts& parts,
   builder.leaveSideStreets(-1.0, right);
   builder.buildFront(1.0, left);
   builder.buildFront(-1.0, right);
-  builder.buildBackground(1.0, left);
-  builder.buildBackground(-1.0, right);
+  for (const double nearest : {16.0, 38.0}) {
+    builder.buildBackground(1.0, nearest, nearest + 16.0, left);
+    builder.buildBackground(-1.0, nearest, nearest + 16.0, right);
+  }
 }
 
 } // namespace nurbs

@@ -5,6 +5,7 @@
 #include "town_path.h"
 #include "town_plots.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl {
@@ -104,6 +105,7 @@ struct RowRules {
   double road_clearance = 0.0;
   double drive_clearance = 0.0;
   double plot_clearance = 0.0;
+  double half_length = 0.0; /**< along the path, as far as the drive has to be clear */
 };
 
 /** Places things beside the path where nothing else is. */
@@ -130,7 +132,7 @@ public:
       Vector3d place = path_.place(arc, RoadShape::kMiddle + lateral);
       const Vector2d flat = place.head<2>();
       if (path_.roadClearance(flat) < rules.road_clearance ||
-          path_.driveClearance(flat) < rules.drive_clearance ||
+          driveClearance(flat, arc, rules.half_length) < rules.drive_clearance ||
           plots_.clearance(flat, 5.0) < rules.plot_clearance)
         continue;
       if (std::abs(lateral) > RoadShape::kHalfWidth + RoadShape::kSidewalk)
@@ -141,6 +143,16 @@ public:
   }
 
 private:
+  /** Of the middle and both ends of a thing along the path. */
+  double
+  driveClearance(const Vector2d& place, double arc, double half_length) const
+  {
+    const Vector2d reach = half_length * path_.direction(arc);
+    return std::min({path_.driveClearance(place - reach),
+                     path_.driveClearance(place),
+                     path_.driveClearance(place + reach)});
+  }
+
   TownParts& parts_;
   const TownPath& path_;
   const TownPlots& plots_;
@@ -154,9 +166,16 @@ addStreetSide(Rows& rows, double side)
   constexpr double kEdge = RoadShape::kHalfWidth;
   constexpr double kOnRoad = -2.0; // clearance of what stands on its own road's side
   const auto at = [&](double lateral) { return side * lateral; };
-  rows.place({at(RoadShape::kParking), at(RoadShape::kParking), 5.6, 7.5, kOnRoad, 2.1},
+  rows.place({at(RoadShape::kParking),
+              at(RoadShape::kParking),
+              5.6,
+              7.5,
+              kOnRoad,
+              2.1,
+              0.0,
+              2.4},
              [](TownParts& parts, CounterRandom& random) {
-               if (random.chance(0.35))
+               if (random.chance(0.3))
                  addCar(parts, SurfaceKind::ParkedCar, random);
              });
   rows.place({at(kEdge + 0.4), at(kEdge + 0.4), 14.0, 40.0, 0.2, 2.5, 0.0}, addPole);
@@ -167,7 +186,7 @@ addStreetSide(Rows& rows, double side)
   rows.place({at(kEdge + 2.9), at(kEdge + 2.9), 5.0, 30.0, 2.0, 4.0, 0.6}, addHedge);
   rows.place({at(kEdge + 4.2), at(kEdge + 6.0), 120.0, 200.0, 3.0, 4.0, 2.0},
              addPavilion);
-  rows.place({at(kEdge + 8.0), at(kEdge + 50.0), 4.0, 14.0, 4.0, 6.0, 1.5},
+  rows.place({at(kEdge + 8.0), at(kEdge + 55.0), 3.0, 9.0, 4.0, 6.0, 1.5},
              [](TownParts& parts, CounterRandom& random) {
                addTree(parts, random.uniform(2.0, 4.0), random);
              });

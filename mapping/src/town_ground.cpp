@@ -4,6 +4,7 @@
 #include "town_parts.h"
 #include "town_path.h"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -177,6 +178,55 @@ addGround(TownParts& parts, const TownPath& path, std::uint64_t seed)
   addStreets(parts, path);
   parts.beginObject(Eigen::Isometry3d::Identity());
   addCells(parts, path, seed);
+}
+
+void
+addTunnel(TownParts& parts, const TownPath& path)
+{
+  constexpr double kWall = 3.5;
+  constexpr double kTop = 7.0; // of the vault's middle control point
+  constexpr double kRoom = 3.0;
+  parts.beginObject(Eigen::Isometry3d::Identity());
+  const auto& nodes = path.nodes();
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    if (!path.hasRoad(i))
+      continue;
+    const CrossSection start(nodes[i]);
+    const CrossSection end(nodes[i + 1]);
+    addRoad(parts, start, end);
+    parts.use(SurfaceKind::Wall, 0.4);
+    for (const double edge : {RoadShape::kHalfWidth, -RoadShape::kHalfWidth})
+      if (path.driveClearance(start.at(edge, 0.0).head<2>()) > kRoom &&
+          path.driveClearance(end.at(edge, 0.0).head<2>()) > kRoom)
+        parts.add(RuledPatch::bilinear(start.at(edge, -kCrown),
+                                       start.at(edge, kWall),
+                                       end.at(edge, -kCrown),
+                                       end.at(edge, kWall)));
+    const auto arch = [&](const CrossSection& section) {
+      return std::array<Vector3d, 3>{section.at(RoadShape::kHalfWidth, kWall),
+                                     section.at(0.0, kTop),
+                                     section.at(-RoadShape::kHalfWidth, kWall)};
+    };
+    parts.use(SurfaceKind::Arch, 0.4);
+    parts.add(RuledPatch{arch(start), arch(end)});
+  }
+}
+
+void
+addSquare(TownParts& parts, const TownPath& path)
+{
+  constexpr double kMargin = 200.0;
+  const auto& nodes = path.nodes();
+  Eigen::AlignedBox2d box;
+  for (const TownPath::Node& node : nodes)
+    box.extend(node.ground.head<2>());
+  const Vector2d corner = box.min() - Vector2d::Constant(kMargin);
+  const Vector2d size = box.sizes() + Vector2d::Constant(2.0 * kMargin);
+  parts.beginObject(Eigen::Isometry3d::Identity());
+  parts.use(SurfaceKind::Ground, 0.4);
+  parts.addRectangle({corner.x(), corner.y(), nodes.front().ground.z()},
+                     {size.x(), 0.0, 0.0},
+                     {0.0, size.y(), 0.0});
 }
 
 } // namespace nurbs

@@ -222,5 +222,15 @@ addHouse(TownParts& parts, double width, double depth, CounterRandom& random)
     addGableRoof(parts, width, depth, height);
 }
 
+void
+addPlainHouse(TownParts& parts, double width, double depth, CounterRandom& random)
+{
+  const double height = random.uniform(2.5, 12.0);
+  parts.use(SurfaceKind::Wall, random.uniform(0.25, 0.6));
+  addOtherWalls(parts, width, depth, height);
+  parts.addRectangle({0.0, 0.0, 0.0}, {width, 0.0, 0.0}, {0.0, 0.0, height});
+  addGableRoof(parts, width, depth, height);
+}
+
 } // namespace nurbs
 } // namespace pcl

@@ -101,6 +101,14 @@ uprightFrame(const Eigen::Vector3d& place, const Eigen::Vector2d& x_axis);
 void
 addGround(TownParts& parts, const TownPath& path, std::uint64_t seed);
 
+/** A road between smooth walls under a vault. */
+void
+addTunnel(TownParts& parts, const TownPath& path);
+
+/** A level plane around the path, at the height of its first node. */
+void
+addSquare(TownParts& parts, const TownPath& path);
+
 /** Houses and garden walls on both sides; their plots are taken. */
 void
 addBuildings(TownParts& parts,
@@ -118,6 +126,10 @@ addFurniture(TownParts& parts,
 /** A house with its front from the origin along x. */
 void
 addHouse(TownParts& parts, double width, double depth, CounterRandom& random);
+
+/** The same with bare walls: a shed, a barn, a block of flats. */
+void
+addPlainHouse(TownParts& parts, double width, double depth, CounterRandom& random);
 
 /** A car that looks along x, the middle of its foot at the origin. */
 void

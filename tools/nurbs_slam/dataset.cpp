@@ -20,6 +20,7 @@ simulate(const SlamSettings& s)
   SimulationOptions options = s.simulation;
   options.noise = !s.exact;
   options.town.sensor_height = s.drive.sensor_height;
+  options.town.scene = sceneOf(s.drive);
   options.T_body_sensor = mountOf(s.drive);
   return std::make_unique<SimulatedDrive>(driveOf(s.drive), sensorOf(s.drive), options);
 }

@@ -54,7 +54,10 @@ addDrive(SettingsTable& table, SlamSettings& s)
 void
 addSimulation(SettingsTable& table, SlamSettings& s)
 {
-  table.add("sim.circuit", &s.drive.circuit, "closed drive: block, oval, eight");
+  table.add("sim.scene", &s.drive.scene, "around the drive: town, tunnel, square");
+  table.add("sim.circuit",
+            &s.drive.circuit,
+            "built-in drive: block, oval, eight, line, standstill");
   table.add("sim.size", &s.drive.size, "extent of the circuit, metres");
   table.add("sim.speed", &s.drive.speed, "on the circuit, m/s");
   table.add("sim.laps", &s.drive.laps, "of the circuit");

@@ -16,12 +16,15 @@ namespace po = boost::program_options;
 void
 describeDrive(SimulationSettings& s, po::options_description& description)
 {
-  description.add_options()("circuit",
-                            po::value(&s.circuit)->default_value("block"),
-                            "built-in closed drive: block, oval, eight")(
+  description.add_options()("scene",
+                            po::value(&s.scene)->default_value("town"),
+                            "what is built around the drive: town, tunnel, square")(
+      "circuit",
+      po::value(&s.circuit)->default_value("block"),
+      "built-in drive: block, oval, eight, line, standstill")(
       "size",
       po::value(&s.size)->default_value(120.0),
-      "extent of the circuit, metres")(
+      "extent of the circuit, length of the line, metres")(
       "speed", po::value(&s.speed)->default_value(8.0), "on the circuit, m/s")(
       "trajectory",
       po::value(&s.trajectory)->value_name("FILE"),
@@ -76,7 +79,10 @@ describeOutput(SimulationSettings& s, po::options_description& description)
       "seed", po::value(&s.simulation.town.seed)->default_value(1), "of the town")(
       "labels",
       po::bool_switch(&s.writing.labels),
-      "write kind and object of every point to labels/");
+      "write kind and object of every point to labels/")(
+      "overwrite",
+      po::bool_switch(&s.overwrite),
+      "remove the scans of an earlier run there, which is refused otherwise");
 }
 
 void
@@ -115,6 +121,7 @@ parseSettings(int argc, char** argv, SimulationSettings& settings)
   settings.simulation.threads = resolveThreads(settings.common.threads);
   settings.simulation.noise = !settings.exact;
   settings.simulation.town.sensor_height = settings.sensor_height;
+  settings.simulation.town.scene = sceneOf(settings);
   settings.simulation.T_body_sensor = mountOf(settings);
   return true;
 }

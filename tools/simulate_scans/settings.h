@@ -17,6 +17,7 @@ struct SimulationSettings : DriveChoice {
   CommonOptions common;
   std::string out;
   bool exact = false;
+  bool overwrite = false; /**< scans of an earlier run are removed */
   pcl::nurbs::SimulationOptions simulation;
   pcl::nurbs::DriveWriteOptions writing;
 };

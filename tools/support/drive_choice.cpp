@@ -16,18 +16,33 @@ namespace {
 
 using namespace pcl::nurbs;
 
+/** What a word stands for. */
+template <typename Value>
+Value
+chosen(const char* what,
+       const std::string& word,
+       const std::map<std::string, Value>& values)
+{
+  const auto found = values.find(word);
+  if (found != values.end())
+    return found->second;
+  std::string words;
+  for (const auto& value : values)
+    words += (words.empty() ? "" : ", ") + value.first;
+  throw ToolError(kUsage, std::string(what) + " must be one of " + words);
+}
+
 Trajectory
 circuitOf(const DriveChoice& choice)
 {
-  static const std::map<std::string, CircuitShape> shapes = {
-      {"block", CircuitShape::Block},
-      {"oval", CircuitShape::Oval},
-      {"eight", CircuitShape::Eight}};
-  const auto shape = shapes.find(choice.circuit);
-  if (shape == shapes.end())
-    throw ToolError(kUsage, "the circuit must be block, oval or eight");
   CircuitOptions options;
-  options.shape = shape->second;
+  options.shape = chosen<CircuitShape>("the circuit",
+                                       choice.circuit,
+                                       {{"block", CircuitShape::Block},
+                                        {"oval", CircuitShape::Oval},
+                                        {"eight", CircuitShape::Eight},
+                                        {"line", CircuitShape::Line},
+                                        {"standstill", CircuitShape::Standstill}});
   options.size = choice.size;
   options.speed = choice.speed;
   options.laps = choice.laps;
@@ -70,21 +85,30 @@ driveOf(const DriveChoice& choice)
   return drive;
 }
 
+TownScene
+sceneOf(const DriveChoice& choice)
+{
+  return chosen<TownScene>("the scene",
+                           choice.scene,
+                           {{"town", TownScene::Streets},
+                            {"tunnel", TownScene::Tunnel},
+                            {"square", TownScene::Square}});
+}
+
 SimulatedDrive::Sensor
 sensorOf(const DriveChoice& choice)
 {
   if (choice.sensor == "kinect")
     return DepthCameraModel::kinect();
-  static const std::map<std::string, LaserModel (*)()> lasers = {
-      {"hdl64", LaserModel::hdl64},
-      {"hdl32", LaserModel::hdl32},
-      {"vlp16", LaserModel::vlp16}};
-  const auto found = lasers.find(choice.sensor);
-  if (found == lasers.end())
-    throw ToolError(kUsage, "the sensor must be hdl64, hdl32, vlp16 or kinect");
+  const auto model = chosen<LaserModel (*)()>("the sensor",
+                                              choice.sensor,
+                                              {{"hdl64", LaserModel::hdl64},
+                                               {"hdl32", LaserModel::hdl32},
+                                               {"vlp16", LaserModel::vlp16},
+                                               {"kinect", nullptr}});
   if (choice.columns < 0 || choice.columns > 65536)
     throw ToolError(kUsage, "the columns of a laser must be 0 to 65536");
-  LaserModel laser = found->second();
+  LaserModel laser = model();
   if (choice.columns > 0)
     laser.columns = choice.columns;
   return laser;

@@ -11,7 +11,8 @@ namespace pcl_nurbs_tools {
 
 /** Which drive is simulated, and with which sensor, in the words of a user. */
 struct DriveChoice {
-  std::string circuit = "block"; /**< block, oval, eight */
+  std::string scene = "town";    /**< town, tunnel, square */
+  std::string circuit = "block"; /**< block, oval, eight, line, standstill */
   double size = 120.0;           /**< of the circuit, metres */
   double speed = 8.0;            /**< on the circuit, m/s */
   double laps = 1.2;             /**< of the circuit */
@@ -30,6 +31,10 @@ struct DriveChoice {
  * \throws ToolError(kUsage) naming what is wrong \throws pcl::nurbs::InputError */
 pcl::nurbs::Trajectory
 driveOf(const DriveChoice& choice);
+
+/** What is built around the drive. \throws ToolError(kUsage) */
+pcl::nurbs::TownScene
+sceneOf(const DriveChoice& choice);
 
 /** The sensor. \throws ToolError(kUsage) */
 pcl::nurbs::SimulatedDrive::Sensor
