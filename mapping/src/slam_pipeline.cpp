@@ -6,9 +6,31 @@
 namespace pcl {
 namespace nurbs {
 
-SlamPipeline::SlamPipeline(const ScanSource& source, const SlamOptions& options)
-    : options_(options), feed_(source, options.feed), odometry_(options.odometry)
+namespace {
+
+/** Detector by options; null for none. */
+std::unique_ptr<LoopDetector>
+detectorFor(const SlamOptions& options)
 {
+  if (!options.close_loops)
+    return nullptr;
+  return std::make_unique<ProximityLoopDetector>(options.loops);
+}
+
+} // namespace
+
+SlamPipeline::SlamPipeline(const ScanSource& source, const SlamOptions& options)
+    : options_(options),
+      feed_(source, options.feed),
+      odometry_(options.odometry),
+      graph_(options.graph, detectorFor(options))
+{
+}
+
+void
+SlamPipeline::setLoopDetector(std::unique_ptr<LoopDetector> detector)
+{
+  graph_ = KeyframeGraph(options_.graph, std::move(detector));
 }
 
 void
@@ -19,10 +41,12 @@ SlamPipeline::run()
   BoundedQueue<ReadScan> read(options_.queue_capacity,
                               realtime ? QueuePolicy::DropOldest : QueuePolicy::Wait);
   BoundedQueue<TrackedScan> tracked(options_.queue_capacity);
+  BoundedQueue<TrackedScan> placed(options_.queue_capacity);
   StageThreads stages;
   const auto finish = [&] {
     result_.stages = stages.times();
     result_.skipped = feed_.skipped() + read.dropped();
+    conclude();
     result_.seconds = watch.lap();
   };
   try {
@@ -33,7 +57,11 @@ SlamPipeline::run()
         "odometry", read, tracked, [this](const ReadScan& scan) {
           return track(scan);
         });
-    stages.addSink<TrackedScan>("output", tracked, [&](const TrackedScan& scan) {
+    stages.addStage<TrackedScan, TrackedScan>(
+        "graph", tracked, placed, [this](TrackedScan scan) {
+          return addToGraph(std::move(scan));
+        });
+    stages.addSink<TrackedScan>("output", placed, [&](const TrackedScan& scan) {
       collect(scan);
       if (progress_ && !progress_(collected_, feed_.size()))
         stages.stop();
@@ -63,6 +91,26 @@ SlamPipeline::track(const ReadScan& scan)
   return {scan.number, scan.stamp, {}, odometry_.process(scan.points, times)};
 }
 
+SlamPipeline::TrackedScan
+SlamPipeline::addToGraph(TrackedScan scan)
+{
+  if (scan.fault.empty())
+    graph_.add(scan.number, scan.stamp, scan.odometry);
+  scan.odometry.points = {};
+  return scan;
+}
+
+void
+SlamPipeline::conclude()
+{
+  graph_.finish();
+  result_.trajectory = graph_.trajectory();
+  result_.odometry = graph_.odometry();
+  const std::vector<Keyframe>& keyframes = graph_.keyframes();
+  for (const BetweenFactor& loop : graph_.loops())
+    result_.loops.emplace_back(keyframes[loop.from].scan, keyframes[loop.to].scan);
+}
+
 void
 SlamPipeline::collect(const TrackedScan& scan)
 {
@@ -76,7 +124,6 @@ SlamPipeline::collect(const TrackedScan& scan)
   const OdometryResult& odometry = scan.odometry;
   if (odometry.match.converged)
     ++result_.tracked;
-  result_.trajectory.push_back({scan.stamp, odometry.pose});
   result_.scans.push_back(scan.number);
   if (odometry.keyframe)
     result_.keyframes.push_back(scan.number);

@@ -45,16 +45,19 @@ makePipeline(const SlamSettings& settings, const ScanSource& source)
 void
 print(const SlamSettings& settings, const nlohmann::json& report)
 {
-  std::printf("%zu scans, %.1f m, %zu keyframes",
+  std::printf("%zu scans, %.1f m, %zu keyframes, %zu loops",
               report["scans"].get<std::size_t>(),
               report["distance_m"].get<double>(),
-              report["keyframes"].get<std::size_t>());
+              report["keyframes"].get<std::size_t>(),
+              report["loops"].get<std::size_t>());
   for (const char* count : {"skipped", "unreadable", "lost"})
     if (report[count].get<std::size_t>() > 0)
       std::printf(", %zu %s", report[count].get<std::size_t>(), count);
   std::printf(" (%.1f scans/s)\n", report["scans_per_second"].get<double>());
   if (report.contains("ate_rmse_m"))
-    std::printf("absolute error %.3f m rms", report["ate_rmse_m"].get<double>());
+    std::printf("absolute error %.3f m rms (odometry alone %.3f m)",
+                report["ate_rmse_m"].get<double>(),
+                report["odometry_ate_rmse_m"].get<double>());
   if (report.contains("kitti_t_percent"))
     std::printf(", KITTI %.3f %%, %.5f deg/m",
                 report["kitti_t_percent"].get<double>(),
@@ -66,20 +69,23 @@ print(const SlamSettings& settings, const nlohmann::json& report)
     std::printf("weakly constrained in %zu intervals (see report.json)\n", weak);
   for (const nlohmann::json& problem : report["problems"])
     std::printf("left out: %s\n", problem.get<std::string>().c_str());
-  std::printf("wrote trajectory_kitti.txt, trajectory_tum.txt, trajectory.png and "
-              "report.json to %s\n",
+  std::printf("wrote trajectory_kitti.txt, trajectory_tum.txt, trajectory.png, "
+              "pose_graph.g2o and report.json to %s\n",
               settings.out.c_str());
 }
 
 /** Write what was done. \return its report; null where there is nothing */
 nlohmann::json
-finish(const SlamSettings& settings, const ScanSource& source, const SlamResult& result)
+finish(const SlamSettings& settings,
+       const ScanSource& source,
+       const SlamPipeline& pipeline)
 {
+  const SlamResult& result = pipeline.result();
   if (result.keyframes.empty())
     return nullptr;
   const Outcome outcome = outcomeOf(settings, source, result);
   const nlohmann::json report = reportOf(settings, source, result, outcome);
-  writeOutcome(settings, report, outcome);
+  writeOutcome(settings, pipeline.keyframeGraph().graph(), report, outcome);
   return report;
 }
 
@@ -87,13 +93,13 @@ finish(const SlamSettings& settings, const ScanSource& source, const SlamResult&
 std::string
 finishEarly(const SlamSettings& settings,
             const ScanSource& source,
-            const SlamResult& result)
+            const SlamPipeline& pipeline)
 {
-  const nlohmann::json report = finish(settings, source, result);
+  const nlohmann::json report = finish(settings, source, pipeline);
   if (report.is_null())
     return "; no scan was done before";
-  return "; the " + std::to_string(result.scans.size()) + " scans done before are in " +
-         settings.out;
+  return "; the " + std::to_string(pipeline.result().scans.size()) +
+         " scans done before are in " + settings.out;
 }
 
 /** Whether nothing was made of several scans, or of a single one without points. */
@@ -123,17 +129,18 @@ run(int argc, char** argv)
       pipeline.run();
     } catch (const InputError& error) {
       throw ToolError(kBadInput,
-                      error.what() + finishEarly(settings, *source, pipeline.result()));
+                      error.what() + finishEarly(settings, *source, pipeline));
     }
   }
   const SlamResult& result = pipeline.result();
   if (interrupted())
     throw ToolError(kInterrupted,
-                    "interrupted" + finishEarly(settings, *source, result));
+                    "interrupted" + finishEarly(settings, *source, pipeline));
   if (lostAtTheStart(result))
     throw ToolError(kNothingProduced,
-                    settings.path + ": no scan could be aligned with the one before");
-  const nlohmann::json report = finish(settings, *source, result);
+                    "tracking was lost at the start: no scan could be aligned with the "
+                    "one before");
+  const nlohmann::json report = finish(settings, *source, pipeline);
   if (!settings.common.quiet)
     print(settings, report);
 }

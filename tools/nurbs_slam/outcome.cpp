@@ -6,6 +6,8 @@
 #include "path_plot.h"
 #include "run_tool.h"
 
+#include <pcl/mapping/pose_graph_io.h>
+
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
@@ -38,32 +40,37 @@ alignedByFirst(TrajectoryPair pair)
   return pair;
 }
 
-void
-compare(Outcome& outcome)
+Comparison
+compare(const Trajectory& truth, const Trajectory& estimate)
 {
   constexpr double kSameTime = 1e-6;
-  const TrajectoryPair pair = associate(outcome.truth, outcome.estimate, kSameTime);
+  const TrajectoryPair pair = associate(truth, estimate, kSameTime);
   if (pair.reference.empty())
-    return;
+    return {};
   try {
     const SimilarityTransform move = alignTrajectory(pair, TrajectoryAlignment::SE3);
-    outcome.compared = {pair.reference, transformed(pair.estimate, move)};
-    outcome.alignment = "se3";
+    return {{pair.reference, transformed(pair.estimate, move)}, "se3"};
   } catch (const std::invalid_argument&) { // too few poses, or all on a line
-    outcome.compared = alignedByFirst(pair);
-    outcome.alignment = "first pose";
+    return {alignedByFirst(pair), "first pose"};
   }
 }
 
+/** Path of the drive; that of odometry only where the graph changed it. */
 void
 writePicture(const std::string& path, const Outcome& outcome)
 {
-  if (outcome.compared.reference.empty())
-    writePlot(path, pathPlot({{"estimate", outcome.estimate}}));
-  else
-    writePlot(path,
-              pathPlot({{"truth", outcome.compared.reference},
-                        {"estimate", outcome.compared.estimate}}));
+  const bool compared = !outcome.compared.pair.reference.empty();
+  std::vector<std::pair<std::string, Trajectory>> paths;
+  if (compared)
+    paths.emplace_back("truth", outcome.compared.pair.reference);
+  paths.emplace_back("estimate",
+                     compared ? outcome.compared.pair.estimate : outcome.estimate);
+  if (!outcome.estimate.back().T_world_body.isApprox(
+          outcome.odometry.back().T_world_body))
+    paths.emplace_back("odometry alone",
+                       compared ? outcome.compared_odometry.pair.estimate
+                                : outcome.odometry);
+  writePlot(path, pathPlot(paths));
 }
 
 } // namespace
@@ -76,17 +83,20 @@ outcomeOf(const SlamSettings& settings,
   Outcome outcome;
   const Eigen::Isometry3d calibration = source.calibration();
   outcome.estimate = inDatasetFrame(result.trajectory, calibration);
+  outcome.odometry = inDatasetFrame(result.odometry, calibration);
   for (std::size_t k = result.scans.front(); k <= result.scans.back();
        k += settings.slam.feed.stride)
     outcome.every_scan.push_back(poseAt(outcome.estimate, source.stamp(k)));
   if (source.truth() != nullptr)
     outcome.truth = inDatasetFrame(*source.truth(), calibration);
-  compare(outcome);
+  outcome.compared = compare(outcome.truth, outcome.estimate);
+  outcome.compared_odometry = compare(outcome.truth, outcome.odometry);
   return outcome;
 }
 
 void
 writeOutcome(const SlamSettings& settings,
+             const PoseGraph& graph,
              const nlohmann::json& report,
              const Outcome& outcome)
 {
@@ -108,6 +118,7 @@ writeOutcome(const SlamSettings& settings,
     attempt([&] { writeKittiTrajectory(name("truth_kitti.txt"), outcome.truth); });
     attempt([&] { writeTumTrajectory(name("truth_tum.txt"), outcome.truth); });
   }
+  attempt([&] { writeG2o(name("pose_graph.g2o"), graph); });
   const std::string text = report.dump(2) + '\n';
   attempt([&] { writeText(name("report.json"), text); });
   if (!settings.common.report.empty())

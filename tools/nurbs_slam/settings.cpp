@@ -40,17 +40,21 @@ parse(int argc, char** argv, SlamSettings& settings, CommandLine& line)
       "print all settings as such a file and end");
   po::options_description drive("Data set and drive");
   po::options_description odometry("Odometry (defaults are the lidar preset's)");
+  po::options_description loops("Loops and pose graph");
   po::options_description simulation("Simulated drive (--dataset sim)");
   table.describe("", drive, line.given);
   table.describe("odometry", odometry, line.given);
+  table.describe("loops", loops, line.given);
+  table.describe("graph", loops, line.given);
   table.describe("sim", simulation, line.given);
-  options.add(drive).add(odometry).add(simulation);
+  options.add(drive).add(odometry).add(loops).add(simulation);
   const CommandTexts texts{
       "nurbs_slam",
       "nurbs_slam --dataset kitti|kitti_raw|tum|files|sim --path DIR --out DIR\n"
-      "A drive of a range sensor becomes a trajectory.\n",
+      "A drive of a range sensor becomes a trajectory; loops are closed.\n",
       "\nWrites to the folder of --out: trajectory_kitti.txt, trajectory_tum.txt,\n"
-      "trajectory.png, report.json; and truth_kitti.txt, truth_tum.txt if the data "
+      "trajectory.png, pose_graph.g2o, report.json; and truth_kitti.txt, truth_tum.txt "
+      "if the data "
       "set\n"
       "has true poses.\n"
       "Exit codes: 0 done, 1 wrong usage, 2 input unreadable or invalid, 3 tracking "
@@ -86,6 +90,20 @@ isDepthCamera(const SlamSettings& s)
   if (s.preset != "auto")
     throw ToolError(kUsage, "preset must be lidar, rgbd or auto");
   return s.dataset == "tum" || (s.dataset == "sim" && s.drive.sensor == "kinect");
+}
+
+/** Depth cameras in rooms: everything is smaller. */
+void
+usePresetForRooms(SlamOptions& slam)
+{
+  slam.odometry = OdometryOptions::rgbd();
+  slam.graph.point_spacing = slam.odometry.match_spacing;
+  slam.loops.voxel_size = slam.odometry.map.voxel_size;
+  slam.loops.min_way = 4.0;
+  slam.loops.min_reach = 0.5;
+  slam.loops.max_reach = 1.0;
+  slam.loops.max_cycle_distance = 0.05;
+  slam.loops.min_sigma_translation = 0.005;
 }
 
 void
@@ -150,7 +168,7 @@ parseSlamSettings(int argc, char** argv)
     settings.dataset = layoutOf(settings);
   const std::string dataset = settings.dataset;
   if (isDepthCamera(settings))
-    settings.slam.odometry = OdometryOptions::rgbd();
+    usePresetForRooms(settings.slam);
   apply(settings, line, from_file); // over the preset
   if (line.dump) {
     std::cout << settingsTable(settings).yaml();
@@ -164,6 +182,7 @@ parseSlamSettings(int argc, char** argv)
   settings.reading.skip_faults = settings.slam.feed.skip_faults;
   const int threads = resolveThreads(settings.common.threads);
   settings.slam.odometry.threads = settings.simulation.threads = threads;
+  settings.slam.loops.threads = threads;
   return settings;
 }
 

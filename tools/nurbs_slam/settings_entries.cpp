@@ -97,6 +97,32 @@ addOdometry(SettingsTable& table, SlamSettings& s)
   table.add("odometry.keyframe_angle", &o.keyframe_angle, "between keyframes, radians");
 }
 
+void
+addLoops(SettingsTable& table, SlamSettings& s)
+{
+  pcl::nurbs::ProximityLoopOptions& l = s.slam.loops;
+  table.add(
+      "loops.close", &s.slam.close_loops, "look for places the drive comes back to");
+  table.add("loops.min_way", &l.min_way, "a loop is at least so long, metres");
+  table.add(
+      "loops.min_reach", &l.min_reach, "candidates are so near by their poses, m");
+  table.add(
+      "loops.drift_share", &l.drift_share, "or nearer than this share of the way");
+  table.add("loops.max_reach", &l.max_reach, "but no farther than this, metres");
+  table.add("loops.voxel_size", &l.voxel_size, "of the target of alignment, metres");
+  table.add("loops.min_overlap", &l.min_overlap, "share of points on the target");
+  table.add("loops.max_rmse_share", &l.max_rmse_share, "residuals, in voxels");
+  table.add("graph.point_spacing",
+            &s.slam.graph.point_spacing,
+            "of points kept of keyframes, metres");
+  table.add("graph.drift_translation",
+            &s.slam.graph.drift_translation,
+            "of odometry, metres per metre");
+  table.add("graph.drift_rotation",
+            &s.slam.graph.drift_rotation,
+            "of odometry, radians per metre");
+}
+
 } // namespace
 
 SettingsTable
@@ -106,6 +132,7 @@ settingsTable(SlamSettings& settings)
   addDataset(table, settings);
   addDrive(table, settings);
   addOdometry(table, settings);
+  addLoops(table, settings);
   addSimulation(table, settings);
   return table;
 }

@@ -57,11 +57,15 @@ void
 addErrors(nlohmann::json& report, const Outcome& outcome)
 {
   constexpr double kDegrees = 180.0 / M_PI;
-  const TrajectoryPair& pair = outcome.compared;
+  const TrajectoryPair& pair = outcome.compared.pair;
   if (pair.reference.empty())
     return;
-  report["ate_rmse_m"] = summarizeErrors(absoluteErrors(pair).translation).rmse;
-  report["ate_alignment"] = outcome.alignment;
+  const auto rmse = [](const Comparison& comparison) {
+    return summarizeErrors(absoluteErrors(comparison.pair).translation).rmse;
+  };
+  report["ate_rmse_m"] = rmse(outcome.compared);
+  report["odometry_ate_rmse_m"] = rmse(outcome.compared_odometry);
+  report["ate_alignment"] = outcome.compared.alignment;
   report["truth_distance_m"] = pathLengths(pair.reference).back();
   const KittiErrors kitti = meanErrors(kittiSegments(pair));
   if (kitti.segments == 0)
@@ -85,6 +89,8 @@ reportOf(const SlamSettings& settings,
   nlohmann::json report = {{"scans", result.scans.size()},
                            {"distance_m", pathLengths(outcome.estimate).back()},
                            {"keyframes", result.keyframes.size()},
+                           {"loops", result.loops.size()},
+                           {"loop_scans", result.loops},
                            {"skipped", result.skipped},
                            {"unreadable", result.faults.size()},
                            {"lost", result.scans.size() - result.tracked - 1},

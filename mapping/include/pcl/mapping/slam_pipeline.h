@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <pcl/mapping/keyframe_graph.h>
 #include <pcl/mapping/pipeline/scan_feed.h>
 #include <pcl/mapping/pipeline/stage_threads.h>
 #include <pcl/mapping/pipeline/weak_intervals.h>
@@ -19,19 +20,27 @@ namespace nurbs {
 struct SlamOptions {
   OdometryOptions odometry;
   ScanFeedOptions feed;
+  KeyframeGraphOptions graph;
+  /** Whether places are looked for where the drive comes back to, and how. */
+  bool close_loops = true;
+  ProximityLoopOptions loops;
   /** Scans that may wait between two stages. */
   std::size_t queue_capacity = 2;
 };
 
 /** \brief What a drive was turned into. */
 struct SlamResult {
-  /** Poses of the sensor in its frame at the first scan, by time; one per scan that was
-   * used. */
+  /** Poses of the sensor in its frame at the first scan, by time, after the pose graph;
+   * one per scan that was used. */
   Trajectory trajectory;
+  /** The same by odometry alone. */
+  Trajectory odometry;
   /** Number of the scan of each pose. */
   std::vector<std::size_t> scans;
   /** Numbers of the scans that became keyframes. */
   std::vector<std::size_t> keyframes;
+  /** Places that the drive came back to, by numbers of scans: earlier, later. */
+  std::vector<std::pair<std::size_t, std::size_t>> loops;
   /** Scans after the first one that were aligned. */
   std::size_t tracked = 0;
   /** Scans left out because the sensor was faster. */
@@ -48,9 +57,11 @@ struct SlamResult {
  * by bounded queues.
  *
  * (1) "read" reads and prepares scans, (2) "odometry" aligns each with the last ones,
- * (3) "output" collects the results. Without ScanFeedOptions::realtime no scan is left
+ * (3) "graph" adds keyframes to the pose graph, closes loops and optimises, (4)
+ * "output" collects the results. Without ScanFeedOptions::realtime no scan is left
  * out, and the result has the same bits for any number of threads. Memory does not grow
- * with the drive but by its poses.
+ * with the drive but by its poses and, as long as loops are closed, the thinned points
+ * of its keyframes.
  * \ingroup mapping */
 class PCL_NURBS_MAPPING_EXPORT SlamPipeline {
 public:
@@ -74,6 +85,17 @@ public:
   void
   run();
 
+  /** \brief Use another detector of loops; before run(). */
+  void
+  setLoopDetector(std::unique_ptr<LoopDetector> detector);
+
+  /** \brief The pose graph, its keyframes and scans; after run(). */
+  const KeyframeGraph&
+  keyframeGraph() const
+  {
+    return graph_;
+  }
+
   /** \brief What has been done; after run(). */
   const SlamResult&
   result() const
@@ -93,6 +115,14 @@ private:
   TrackedScan
   track(const ReadScan& scan);
 
+  /** Add a scan to the graph, which keeps what is needed of its points. */
+  TrackedScan
+  addToGraph(TrackedScan scan);
+
+  /** Fill in what is known at the end. */
+  void
+  conclude();
+
   void
   collect(const TrackedScan& scan);
 
@@ -102,6 +132,7 @@ private:
   SlamOptions options_;
   ScanFeed feed_;
   ScanOdometry odometry_;
+  KeyframeGraph graph_;
   Progress progress_;
   std::size_t processed_ = 0;
   double last_stamp_ = 0.0;
