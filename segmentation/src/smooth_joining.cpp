@@ -15,6 +15,15 @@ namespace {
 constexpr double kStepSigmas = 3.0;
 /** Share of the common border that must be smooth. */
 constexpr double kSmoothShare = 0.6;
+/** A steady bend may be so much larger than a crease. */
+constexpr double kBend = 1.5;
+
+bool
+isSmooth(const BorderFit& fit, double crease_angle)
+{
+  const double angle = fit.bends ? kBend * crease_angle : crease_angle;
+  return fit.step <= kStepSigmas && fit.normal[0].dot(fit.normal[1]) >= std::cos(angle);
+}
 
 } // namespace
 
@@ -31,7 +40,6 @@ joinSmooth(const JoiningInput& input,
           .list();
   const BorderFitter fitter(
       input.points, input.chart, input.criterion, cells.facet, cells.size);
-  const double least_cosine = std::cos(input.options.crease_angle);
   std::vector<std::uint8_t> smooth(pieces.size());
 #pragma omp parallel for schedule(dynamic, 16) num_threads(input.options.threads)
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -39,10 +47,7 @@ joinSmooth(const JoiningInput& input,
     if (!parts.empty() && parts[key.a] != parts[key.b])
       continue;
     const std::optional<BorderFit> fit = fitter.at(key.a, key.b, piece.middle);
-    smooth[k] = fit && fit->step <= kStepSigmas &&
-                        fit->normal[0].dot(fit->normal[1]) >= least_cosine
-                    ? 1
-                    : 0;
+    smooth[k] = fit && isSmooth(*fit, input.options.crease_angle) ? 1 : 0;
   }
   BorderAgglomeration agglomeration(input.facets.count());
   for (std::size_t k = 0; k < pieces.size(); ++k)
