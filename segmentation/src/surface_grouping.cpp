@@ -8,6 +8,7 @@
 #include "surface_borders.h"
 #include "surface_labels.h"
 #include "surface_merging.h"
+#include "surface_stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -140,12 +141,13 @@ facetsOf(const SurfaceCriterion& criterion,
 } // namespace
 
 std::uint32_t
-groupSurfaces(const GridPoints& points,
-              const GridGraph& graph,
-              const SensorNoise& noise,
-              const SurfaceGroupingOptions& options,
-              std::vector<std::uint32_t>& labels,
-              std::vector<SurfaceGroup>* groups)
+groupSurfacesAnd(SurfaceStages& stages,
+                 const GridPoints& points,
+                 const GridGraph& graph,
+                 const SensorNoise& noise,
+                 const SurfaceGroupingOptions& options,
+                 std::vector<std::uint32_t>& labels,
+                 std::vector<SurfaceGroup>* groups)
 {
   requireValid(points, graph, options);
   const std::vector<BlockSize> sizes = blockSizes(points);
@@ -171,13 +173,28 @@ groupSurfaces(const GridPoints& points,
   cells.grow(options.point_sigmas);
   dropRedundantFacets(input, edges, cells);
   cells.refine();
-  DisjointSets surfaces(facets.count());
+  const std::uint32_t count = cells.addLeftOver(facets.count());
+  const FacetCells facet_cells{cells.labels(), count, sizes.front()};
+  const std::vector<std::uint32_t> parts =
+      stages.partOfFacet(input, edges, facet_cells);
+  DisjointSets surfaces(count);
   if (options.join_smooth)
-    joinSmooth(input, edges, cells.labels(), sizes.front(), surfaces);
+    joinSmooth(input, edges, facet_cells, parts, surfaces);
   if (options.join_separated)
     joinSeparated(input, surfaces);
-  surfaces.grow(cells.addLeftOver(facets.count()));
   return labelSurfaces(input, cells.labels(), surfaces, labels, groups);
+}
+
+std::uint32_t
+groupSurfaces(const GridPoints& points,
+              const GridGraph& graph,
+              const SensorNoise& noise,
+              const SurfaceGroupingOptions& options,
+              std::vector<std::uint32_t>& labels,
+              std::vector<SurfaceGroup>* groups)
+{
+  SurfaceStages none;
+  return groupSurfacesAnd(none, points, graph, noise, options, labels, groups);
 }
 
 } // namespace nurbs

@@ -141,6 +141,16 @@ ViewChart::sample(std::size_t cell) const
 }
 
 Eigen::Vector3d
+ViewChart::position(const ViewPolynomial& surface, const Eigen::Vector3d& e) const
+{
+  const Eigen::Vector3d where = spherical_ ? e.normalized() : e;
+  const double value = surface(basis(where));
+  if (angular_)
+    return where / value;
+  return origin_ + Eigen::Vector3d(scale_ * where.x(), scale_ * where.y(), value);
+}
+
+Eigen::Vector3d
 ViewChart::normal(const ViewPolynomial& surface, const Eigen::Vector3d& e) const
 {
   const double value = surface(basis(e));

@@ -13,7 +13,7 @@
 #include <pcl/mapping/demo_scene.h>
 #include <pcl/segmentation/cloud_organizer.h>
 #include <pcl/segmentation/grid_segmentation.h>
-#include <pcl/segmentation/surface_grouping.h>
+#include <pcl/segmentation/object_grouping.h>
 
 #include <algorithm>
 #include <chrono>
@@ -168,9 +168,18 @@ allMethods()
     options.threads = kThreads;
     connectedGroups(points, graph, noise, options, labels);
   });
+  const Segmenter objects = ours([](const GridPoints& points,
+                                    const GridGraph& graph,
+                                    const SensorNoise& noise,
+                                    Labels& labels) {
+    SurfaceGroupingOptions options;
+    options.threads = kThreads;
+    labels = groupObjects(points, graph, noise, options).labels;
+  });
   std::vector<Method> methods = {
       {"**groupSurfaces**", {{"defaults", surfaces(true)}}},
       {"groupSurfaces, parts apart", {{"join_separated off", surfaces(false)}}},
+      {"**groupObjects**", {{"defaults", objects}}},
       {"connectedGroups", {{"defaults", connected}}}};
   for (Method& method : pclMethods())
     methods.push_back(std::move(method));

@@ -105,7 +105,12 @@ public:
     return direction_noise_;
   }
 
-  /** \brief Unit normal, in the grid's frame, of a surface at a direction. */
+  /** \brief Point, in the grid's frame, of a surface at a direction of any length. */
+  Eigen::Vector3d
+  position(const ViewPolynomial& surface, const Eigen::Vector3d& direction) const;
+
+  /** \brief Unit normal, in the grid's frame, of a surface at a direction; in an
+   * angular grid away from the sensor, else along the depth. */
   Eigen::Vector3d
   normal(const ViewPolynomial& surface, const Eigen::Vector3d& direction) const;
 
