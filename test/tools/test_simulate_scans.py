@@ -12,7 +12,7 @@ import unittest
 
 from tool import ToolTest
 
-SMALL = ("--columns", "60", "--scans", "3", "--quiet")
+SMALL = ("--size", "60", "--columns", "60", "--scans", "3", "--quiet")
 
 
 class Simulation(ToolTest):
@@ -167,7 +167,7 @@ class Usage(Simulation):
                 ["--out", "o", "--first=-1"], ["--out", "o", "--scans=-1"],
                 ["--out", "o", "--frame", "ship"], ["--out", "o", "--calib", "c.txt"],
                 ["--out", "o", "--sequence", "../x"], ["--out", "o", "--sequence", ""],
-                ["--out", "o", "--yaw", "inf"], ["--out", "o", "--seed", "many"],
+                ["--out", "o", "--sensor", "kinect", "--yaw", "inf"], ["--out", "o", "--seed", "many"],
                 ["--out", "o", "--quiet", "--quiet"]):
             with self.subTest(arguments):
                 self.fail_with(1, *arguments)

@@ -74,8 +74,8 @@ describeOutput(SimulationSettings& s, po::options_description& description)
       "sequence",
       po::value(&s.writing.sequence)->default_value("00"),
       "number of the sequence in KITTI's layout")(
-      "first", po::value(&s.writing.first)->default_value(0), "first scan")(
-      "scans", po::value(&s.writing.count)->default_value(0), "scans; 0 for all")(
+      "first", po::value(&s.first)->default_value(0), "first scan")(
+      "scans", po::value(&s.scans)->default_value(0), "scans; 0 for all")(
       "seed", po::value(&s.simulation.town.seed)->default_value(1), "of the town")(
       "labels",
       po::bool_switch(&s.writing.labels),
@@ -90,6 +90,8 @@ requireSensible(const SimulationSettings& s)
 {
   if (s.out.empty())
     throw ToolError(kUsage, "--out is needed (see --help)");
+  if (s.first < 0 || s.scans < 0)
+    throw ToolError(kUsage, "--first and --scans must not be negative");
   const std::string& sequence = s.writing.sequence;
   if (sequence.empty() || sequence.find('/') != std::string::npos || sequence[0] == '.')
     throw ToolError(kUsage, "--sequence must be the name of a folder");
@@ -118,6 +120,8 @@ parseSettings(int argc, char** argv, SimulationSettings& settings)
   if (!parseCommandLine(argc, argv, texts, options, nullptr))
     return false;
   requireSensible(settings);
+  settings.writing.first = static_cast<std::size_t>(settings.first);
+  settings.writing.count = static_cast<std::size_t>(settings.scans);
   settings.simulation.threads = resolveThreads(settings.common.threads);
   settings.simulation.noise = !settings.exact;
   settings.simulation.town.sensor_height = settings.sensor_height;

@@ -8,6 +8,7 @@
 
 #include <pcl/mapping/simulator/drive_writer.h>
 
+#include <cstdint>
 #include <string>
 
 namespace pcl_nurbs_tools {
@@ -16,6 +17,8 @@ namespace pcl_nurbs_tools {
 struct SimulationSettings : DriveChoice {
   CommonOptions common;
   std::string out;
+  std::int64_t first = 0; /**< scan */
+  std::int64_t scans = 0; /**< 0 for all */
   bool exact = false;
   bool overwrite = false; /**< scans of an earlier run are removed */
   pcl::nurbs::SimulationOptions simulation;

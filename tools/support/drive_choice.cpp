@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 namespace pcl_nurbs_tools {
 namespace {
@@ -47,7 +48,13 @@ circuitOf(const DriveChoice& choice)
   options.speed = choice.speed;
   options.laps = choice.laps;
   options.height = choice.sensor_height;
-  return makeCircuit(options);
+  try {
+    return makeCircuit(options);
+  } catch (const std::invalid_argument&) {
+    throw ToolError(kUsage,
+                    "the circuit must be at least 60 m, its speed, laps and the height "
+                    "of the sensor positive, with at most a million poses");
+  }
 }
 
 /** Poses by their number get the times of a sensor that never stops. */
