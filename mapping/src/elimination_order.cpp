@@ -3,10 +3,13 @@
 
 #include "elimination_order.h"
 
+#include <ccolamd.h>
 #include <cholmod.h>
 
+#include <algorithm>
+#include <array>
 #include <new>
-#include <stdexcept>
+#include <numeric>
 
 namespace pcl {
 namespace nurbs {
@@ -89,6 +92,44 @@ eliminationOrder(int count, const VariablePairs& pairs)
   std::vector<int> result(order, order + count);
   cholmod_free_factor(&factor, common.get());
   return result;
+}
+
+std::vector<int>
+constrainedOrder(const std::vector<std::vector<int>>& rows,
+                 const std::vector<int>& last)
+{
+  const auto count = static_cast<int>(last.size());
+  std::vector<int> starts(last.size() + 1, 0); // of columns
+  for (const std::vector<int>& row : rows)
+    for (const int column : row)
+      ++starts[static_cast<std::size_t>(column) + 1];
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  const int entries = starts.back();
+  const std::size_t space =
+      ccolamd_recommended(entries, static_cast<int>(rows.size()), count);
+  std::vector<int> indices(std::max<std::size_t>(space, 1));
+  std::vector<int> ends = starts;
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    for (const int column : rows[row])
+      indices[static_cast<std::size_t>(ends[static_cast<std::size_t>(column)]++)] =
+          static_cast<int>(row);
+  std::array<double, CCOLAMD_KNOBS> knobs{};
+  std::array<int, CCOLAMD_STATS> statistics{};
+  ccolamd_set_defaults(knobs.data());
+  knobs[CCOLAMD_DENSE_ROW] = -1; // separators are long rows, and matter
+  knobs[CCOLAMD_DENSE_COL] = -1;
+  std::vector<int> groups = last;
+  if (ccolamd(static_cast<int>(rows.size()),
+              count,
+              static_cast<int>(indices.size()),
+              indices.data(),
+              starts.data(),
+              knobs.data(),
+              statistics.data(),
+              groups.data()) == 0)
+    throw std::bad_alloc(); // the pattern is valid
+  starts.resize(last.size());
+  return starts;
 }
 
 std::vector<int>

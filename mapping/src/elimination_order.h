@@ -18,7 +18,14 @@ using VariablePairs = std::vector<std::pair<int, int>>;
 std::vector<int>
 eliminationOrder(int count, const VariablePairs& pairs);
 
-/** The same for the poses of a graph that are not held, as their indices. */
+/** Order for variables 0 ... count - 1 that stand together in rows, the \a last ones at
+ * the end (CCOLAMD).
+ * \param[in] last by variable, 1 to be among the last, else 0 */
+std::vector<int>
+constrainedOrder(const std::vector<std::vector<int>>& rows,
+                 const std::vector<int>& last);
+
+/** eliminationOrder() of the poses of a graph that are not held, as their indices. */
 std::vector<int>
 eliminationOrder(const PoseGraphProblem& problem);
 

@@ -6,6 +6,7 @@
 #include "ceres_poses.h"
 #include "elimination_order.h"
 #include "odometry_chain.h"
+#include "pose_graph_equations.h"
 #include "pose_graph_problem.h"
 
 #include <pcl/mapping/stop_watch.h>
@@ -145,9 +146,9 @@ solverOptions(const PoseGraphOptions& options)
 }
 
 void
-solve(PoseGraphProblem& problem,
-      const PoseGraphOptions& options,
-      PoseGraphSummary& summary)
+solveByCeres(PoseGraphProblem& problem,
+             const PoseGraphOptions& options,
+             PoseGraphSummary& summary)
 {
   CeresProblem ceres_problem(problem);
   StopOnRequest stop(options.interrupted);
@@ -185,7 +186,10 @@ optimize(PoseGraph& graph, const PoseGraphOptions& options)
   summary.components = problem.components;
   summary.anchors = problem.anchors;
   summary.initial_cost = problem.cost();
-  solve(problem, options, summary);
+  if (options.method == PoseGraphMethod::Ceres)
+    solveByCeres(problem, options, summary);
+  else
+    PoseGraphEquations(problem).minimize(options, summary);
   summary.final_cost = problem.cost();
   writeBack(problem, graph);
   summary.seconds = watch.lap();

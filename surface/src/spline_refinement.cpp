@@ -2,7 +2,8 @@
 // Copyright (c) 2026, the PCL-NURBS authors
 
 #include "homogeneous_spline.h"
-#include "runtime_simd.h"
+
+#include <pcl/surface/nurbs/runtime_simd.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 
 #include "band_cholesky.h"
 
-#include "runtime_simd.h"
+#include <pcl/surface/nurbs/runtime_simd.h>
 
 #include <algorithm>
 #include <cmath>

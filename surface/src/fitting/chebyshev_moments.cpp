@@ -3,9 +3,8 @@
 
 #include "chebyshev_moments.h"
 
-#include "runtime_simd.h"
-
 #include <pcl/surface/nurbs/knot_vector.h>
+#include <pcl/surface/nurbs/runtime_simd.h>
 
 #include <algorithm>
 #include <array>

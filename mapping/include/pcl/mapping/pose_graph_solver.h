@@ -30,14 +30,23 @@ initializeChordal(PoseGraph& graph, PoseGraphCost form = PoseGraphCost::Informat
 PCL_NURBS_MAPPING_EXPORT void
 initializeRandomly(PoseGraph& graph, unsigned seed);
 
+/** \brief Who does the steps; both stop at the same minimum.
+ * \ingroup mapping */
+enum class PoseGraphMethod {
+  Ceres,       /**< Levenberg-Marquardt of Ceres, its sparse normal Cholesky */
+  Multifrontal /**< Levenberg-Marquardt on our own clique tree: faster, above all where
+                * the BLAS that Ceres finds is slow */
+};
+
 /** \brief How a graph is optimised.
  * \ingroup mapping */
 struct PoseGraphOptions {
   PoseGraphCost cost = PoseGraphCost::Information;
+  PoseGraphMethod method = PoseGraphMethod::Ceres;
   int max_iterations = 200;
   /** Stop when a step lowers the cost by less than this share of it. */
   double function_tolerance = 1e-10;
-  int threads = 1;
+  int threads = 1; /**< of Ceres' linearisation */
   /** Asked in each iteration; true ends it with what is found so far. */
   std::function<bool()> interrupted;
 
