@@ -191,5 +191,18 @@ JointDistances::squaredDistance(const ProblemFactor& loop, bool in_graph) const
   return sum;
 }
 
+std::vector<double>
+JointDistances::squaredDistances(const std::vector<Query>& queries, int threads) const
+{
+  std::vector<double> distances(queries.size());
+  const auto count = static_cast<std::ptrdiff_t>(queries.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    const auto place = static_cast<std::size_t>(k);
+    distances[place] = squaredDistance(*queries[place].loop, queries[place].in_graph);
+  }
+  return distances;
+}
+
 } // namespace nurbs
 } // namespace pcl

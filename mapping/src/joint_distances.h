@@ -25,15 +25,17 @@ public:
   double
   squaredDistance(const ProblemFactor& loop, bool in_graph) const;
 
-  const PoseGraphProblem&
-  problem() const
-  {
-    return problem_;
-  }
+  struct Query {
+    const ProblemFactor* loop;
+    bool in_graph;
+  };
+
+  /** Of several loops, in so many threads. */
+  std::vector<double>
+  squaredDistances(const std::vector<Query>& queries, int threads) const;
 
 private:
   using Sparse = Eigen::SparseMatrix<double>;
-  using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
   void
   factorize();

@@ -3,47 +3,85 @@
 
 #include "judged_loop.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
-
-#include <stdexcept>
+#include "chi_square.h"
 
 namespace pcl {
 namespace nurbs {
+namespace {
+
+Measurement
+withNoiseScaled(const Measurement& measurement, const NoiseScale& scale)
+{
+  Measurement result = measurement;
+  const NoiseScale inverse{1.0 / scale.translation, 1.0 / scale.rotation};
+  if (auto* between = std::get_if<BetweenFactor>(&result))
+    between->information = inverse.applyTo(between->information);
+  return result;
+}
 
 JudgedLoop
 judgedLoop(const PoseGraph& graph, FactorId id, double probability)
 {
-  const PoseFactor& factor = graph.factor(id);
-  if (!std::holds_alternative<BetweenFactor>(factor.measurement))
-    throw std::invalid_argument("factor " + std::to_string(id) +
-                                " is no between factor, so it is no loop");
   JudgedLoop loop;
   loop.measured = measuredLoop(graph, id);
   loop.factor = problemFactorOf(
-      id, {factor.measurement, 1.0}, graph, PoseGraphCost::Information);
-  loop.limit = chiSquareQuantile(freedomOf(loop.measured), probability);
-  loop.verdict.factor = id;
+      id, {graph.factor(id).measurement, 1.0}, graph, PoseGraphCost::Information);
+  loop.limit = chiSquareQuantile(loop.measured.planar ? 3 : 6, probability);
   return loop;
 }
 
-int
-freedomOf(const MeasuredLoop& loop)
+void
+setIndices(const PoseGraph& graph, std::vector<JudgedLoop>& loops)
 {
-  return loop.planar ? 3 : 6;
+  std::vector<NodeId> names;
+  for (const auto& [id, node] : graph.nodes())
+    names.push_back(id);
+  for (JudgedLoop& loop : loops) {
+    loop.factor.first = static_cast<int>(indexOf(names, loop.measured.from));
+    loop.factor.second = static_cast<int>(indexOf(names, loop.measured.to));
+  }
+}
+
+} // namespace
+
+void
+JudgedGraph::judge(
+    JudgedLoop& loop, LoopCheck check, double distance, double limit, bool accepted)
+{
+  loop.verdict = {loop.verdict.factor, accepted, check, distance, limit};
+  graph.setWeight(loop.factor.id, accepted ? 1.0 : 0.0);
 }
 
 double
-chiSquareQuantile(int freedom, double probability)
-{
-  return boost::math::quantile(boost::math::chi_squared(freedom), probability);
-}
-
-double
-residualOf(const JudgedLoop& loop, const PoseGraph& graph)
+JudgedGraph::residualOf(const JudgedLoop& loop) const
 {
   return costOf(loop.factor,
                 toSolverPose(graph.node(loop.measured.from).T_world_node),
                 toSolverPose(graph.node(loop.measured.to).T_world_node));
+}
+
+JudgedGraph
+judgedGraph(const PoseGraph& graph,
+            const std::set<FactorId>& loops,
+            const NoiseScale& scale,
+            double probability)
+{
+  JudgedGraph result;
+  result.graph = graph;
+  for (const auto& [id, factor] : graph.factors())
+    result.graph.removeFactor(id);
+  for (const auto& [id, factor] : graph.factors()) {
+    const FactorId name =
+        result.graph.addFactor(withNoiseScaled(factor.measurement, scale));
+    if (loops.count(id) == 0) {
+      result.graph.setWeight(name, factor.weight);
+      continue;
+    }
+    result.loops.push_back(judgedLoop(result.graph, name, probability));
+    result.loops.back().verdict.factor = id;
+  }
+  setIndices(result.graph, result.loops);
+  return result;
 }
 
 } // namespace nurbs

@@ -8,6 +8,8 @@
 
 #include <pcl/mapping/pose_graph_robust.h>
 
+#include <functional>
+
 namespace pcl {
 namespace nurbs {
 
@@ -19,21 +21,31 @@ struct JudgedLoop {
   LoopVerdict verdict;
 };
 
-JudgedLoop
-judgedLoop(const PoseGraph& graph, FactorId id, double probability);
+/** A copy of a graph with its loops, on which they are judged. */
+struct JudgedGraph {
+  PoseGraph graph;
+  std::vector<JudgedLoop> loops;
+  /** Optimises the graph with the loops' present weights. */
+  std::function<void()> solve;
 
-/** Degrees of freedom of its error. */
-int
-freedomOf(const MeasuredLoop& loop);
+  /** Pass a verdict and set the weight accordingly. */
+  void
+  judge(JudgedLoop& loop, LoopCheck check, double distance, double limit, bool accepted);
 
-/** x of which a chi square variable is less with this probability. */
-double
-chiSquareQuantile(int freedom, double probability);
+  /** Squared distance of the loop's measurement from the estimates in units of its own
+   * covariance. */
+  double
+  residualOf(const JudgedLoop& loop) const;
+};
 
-/** Squared distance of the loop's measurement from the estimates, d^2 of its own
- * covariance alone. */
-double
-residualOf(const JudgedLoop& loop, const PoseGraph& graph);
+/** The graph with the information of between factors for errors scaled so, its loops
+ * accepted.
+ * \throws as optimizeRobustly() */
+JudgedGraph
+judgedGraph(const PoseGraph& graph,
+            const std::set<FactorId>& loops,
+            const NoiseScale& scale,
+            double probability);
 
 } // namespace nurbs
 } // namespace pcl

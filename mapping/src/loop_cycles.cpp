@@ -42,7 +42,7 @@ operator*(const UncertainMotion& first, const UncertainMotion& second)
 } // namespace
 
 MeasuredLoop
-measuredLoop(const PoseGraph& graph, FactorId id)
+measuredLoop(const PoseGraph& graph, FactorId id, const NoiseScale& scale)
 {
   const auto& between = std::get<BetweenFactor>(graph.factor(id).measurement);
   const bool planar =
@@ -50,20 +50,27 @@ measuredLoop(const PoseGraph& graph, FactorId id)
   return {id,
           between.from,
           between.to,
-          {between.T_from_to, covarianceOf(between.information, planar)},
+          {between.T_from_to, scale.applyTo(covarianceOf(between.information, planar))},
           planar};
+}
+
+std::optional<CycleError>
+cycleError(const MeasuredLoop& loop, const OdometryUncertainty& odometry)
+{
+  const auto motion = odometry.motion(loop.from, loop.to);
+  if (!motion)
+    return std::nullopt;
+  return CycleError{logarithm(loop.measured.T_from_to.inverse() * motion->T_from_to),
+                    loop.measured.covariance + motion->covariance};
 }
 
 std::optional<double>
 cycleDistance(const MeasuredLoop& loop, const OdometryUncertainty& odometry)
 {
-  const auto motion = odometry.motion(loop.from, loop.to);
-  if (!motion)
+  const auto cycle = cycleError(loop, odometry);
+  if (!cycle)
     return std::nullopt;
-  return squaredDistance(
-      logarithm(loop.measured.T_from_to.inverse() * motion->T_from_to),
-      loop.measured.covariance + motion->covariance,
-      loop.planar);
+  return squaredDistance(cycle->error, cycle->covariance, loop.planar);
 }
 
 std::optional<double>

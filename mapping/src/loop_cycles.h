@@ -20,7 +20,17 @@ struct MeasuredLoop {
 };
 
 MeasuredLoop
-measuredLoop(const PoseGraph& graph, FactorId id);
+measuredLoop(const PoseGraph& graph, FactorId id, const NoiseScale& scale = {});
+
+/** How far a loop is from the odometry between its ends, and the covariance of that. */
+struct CycleError {
+  Tangent error = Tangent::Zero();
+  TangentMatrix covariance = TangentMatrix::Zero();
+};
+
+/** Nothing if odometry does not join the ends. O(1). */
+std::optional<CycleError>
+cycleError(const MeasuredLoop& loop, const OdometryUncertainty& odometry);
 
 /** d^2 of the cycle of a loop and the odometry between its ends; nothing if that does not
  * join them. O(1). */

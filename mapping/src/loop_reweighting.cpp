@@ -41,19 +41,16 @@ switchWeight(double residual, double limit)
 
 class Reweighting {
 public:
-  Reweighting(PoseGraph& graph, std::vector<JudgedLoop>& loops)
-      : graph_(graph), loops_(loops)
-  {
-  }
+  explicit Reweighting(JudgedGraph& judged) : judged_(judged) {}
 
   /** The largest residual in units of the limit. */
   double
   worst() const
   {
     double result = 0.0;
-    for (const JudgedLoop& loop : loops_)
+    for (const JudgedLoop& loop : judged_.loops)
       if (loop.verdict.accepted)
-        result = std::max(result, residualOf(loop, graph_) / loop.limit);
+        result = std::max(result, judged_.residualOf(loop) / loop.limit);
     return result;
   }
 
@@ -64,12 +61,12 @@ public:
   {
     double change = 0.0;
     binary_ = true;
-    for (JudgedLoop& loop : loops_) {
+    for (JudgedLoop& loop : judged_.loops) {
       if (!loop.verdict.accepted)
         continue;
-      const double before = graph_.factor(loop.factor.id).weight;
-      const double weight = weightOf(residualOf(loop, graph_), loop.limit);
-      graph_.setWeight(loop.factor.id, weight);
+      const double before = judged_.graph.factor(loop.factor.id).weight;
+      const double weight = weightOf(judged_.residualOf(loop), loop.limit);
+      judged_.graph.setWeight(loop.factor.id, weight);
       change = std::max(change, std::abs(weight - before));
       constexpr double kNearly = 1e-6;
       binary_ = binary_ && (weight < kNearly || weight > 1.0 - kNearly);
@@ -86,34 +83,28 @@ public:
   void
   decide()
   {
-    for (JudgedLoop& loop : loops_) {
+    for (JudgedLoop& loop : judged_.loops) {
       if (!loop.verdict.accepted)
         continue;
-      const double residual = residualOf(loop, graph_);
-      const bool kept = residual <= loop.limit;
-      loop.verdict = {
-          loop.factor.id, kept, LoopCheck::Weight, residual, loop.limit};
-      graph_.setWeight(loop.factor.id, kept ? 1.0 : 0.0);
+      const double residual = judged_.residualOf(loop);
+      judged_.judge(
+          loop, LoopCheck::Weight, residual, loop.limit, residual <= loop.limit);
     }
   }
 
 private:
-  PoseGraph& graph_;
-  std::vector<JudgedLoop>& loops_;
+  JudgedGraph& judged_;
   bool binary_ = false;
 };
 
 } // namespace
 
 void
-rejectByGraduatedNonConvexity(PoseGraph& graph,
-                              std::vector<JudgedLoop>& loops,
-                              const RobustOptions& options,
-                              const GraphSolver& solve)
+rejectByGraduatedNonConvexity(JudgedGraph& judged, const RobustOptions& options)
 {
   const bool truncated = options.loss == RobustLoss::TruncatedLeastSquares;
-  Reweighting weights(graph, loops);
-  solve();
+  Reweighting weights(judged);
+  judged.solve();
   const double worst = weights.worst();
   // Remark 5: the surrogate is convex at the largest residual.
   double mu = truncated ? 1.0 / (2.0 * worst - 1.0) : 2.0 * worst;
@@ -123,7 +114,7 @@ rejectByGraduatedNonConvexity(PoseGraph& graph,
       return truncated ? truncatedWeight(residual, limit, mu)
                        : gemanMcClureWeight(residual, limit, mu);
     });
-    solve();
+    judged.solve();
     constexpr double kStays = 1e-3;
     if (truncated ? weights.binary() : mu <= 1.0 && change < kStays)
       break;
@@ -133,17 +124,14 @@ rejectByGraduatedNonConvexity(PoseGraph& graph,
 }
 
 void
-rejectBySwitches(PoseGraph& graph,
-                 std::vector<JudgedLoop>& loops,
-                 const RobustOptions& options,
-                 const GraphSolver& solve)
+rejectBySwitches(JudgedGraph& judged, const RobustOptions& options)
 {
-  Reweighting weights(graph, loops);
+  Reweighting weights(judged);
   for (int k = 0; k < options.max_reweightings; ++k) {
     constexpr double kStays = 1e-3;
     if (weights.reweight(switchWeight) < kStays)
       break;
-    solve();
+    judged.solve();
   }
   weights.decide();
 }

@@ -5,28 +5,17 @@
 
 #include "judged_loop.h"
 
-#include <functional>
-
 namespace pcl {
 namespace nurbs {
-
-/** Optimises the graph with the loops' present weights. */
-using GraphSolver = std::function<void()>;
 
 /** Optimise and reweight the loops that are accepted so far until the weights stay, then
  * reject those that lost theirs. Weights are left at 1 or 0. */
 void
-rejectByGraduatedNonConvexity(PoseGraph& graph,
-                              std::vector<JudgedLoop>& loops,
-                              const RobustOptions& options,
-                              const GraphSolver& solve);
+rejectByGraduatedNonConvexity(JudgedGraph& judged, const RobustOptions& options);
 
 /** \copydoc rejectByGraduatedNonConvexity */
 void
-rejectBySwitches(PoseGraph& graph,
-                 std::vector<JudgedLoop>& loops,
-                 const RobustOptions& options,
-                 const GraphSolver& solve);
+rejectBySwitches(JudgedGraph& judged, const RobustOptions& options);
 
 } // namespace nurbs
 } // namespace pcl

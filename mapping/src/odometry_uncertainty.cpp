@@ -35,17 +35,6 @@ measuredMotion(const PoseGraph& graph,
   return std::nullopt;
 }
 
-Eigen::Matrix3d
-planarPart(const TangentMatrix& matrix)
-{
-  Eigen::Matrix3d part;
-  for (Eigen::Index r = 0; r < 3; ++r)
-    for (Eigen::Index c = 0; c < 3; ++c)
-      part(r, c) = matrix(kPlanarRows[static_cast<std::size_t>(r)],
-                          kPlanarRows[static_cast<std::size_t>(c)]);
-  return part;
-}
-
 template <int Size>
 Eigen::Matrix<double, Size, Size>
 inverseOf(const Eigen::Matrix<double, Size, Size>& information)
@@ -69,6 +58,14 @@ adjoint(const Eigen::Isometry3d& motion)
   result.bottomRightCorner<3, 3>() = motion.linear();
   result.topRightCorner<3, 3>() = crossMatrix(motion.translation()) * motion.linear();
   return result;
+}
+
+TangentMatrix
+NoiseScale::applyTo(const TangentMatrix& covariance) const
+{
+  Tangent factors;
+  factors << Eigen::Vector3d::Constant(translation), Eigen::Vector3d::Constant(rotation);
+  return factors.asDiagonal() * covariance * factors.asDiagonal();
 }
 
 TangentMatrix
@@ -102,8 +99,20 @@ squaredDistance(const Tangent& error, const TangentMatrix& covariance, bool plan
   return part.dot(planarPart(covariance).ldlt().solve(part));
 }
 
+Eigen::Matrix3d
+planarPart(const TangentMatrix& matrix)
+{
+  Eigen::Matrix3d part;
+  for (Eigen::Index r = 0; r < 3; ++r)
+    for (Eigen::Index c = 0; c < 3; ++c)
+      part(r, c) = matrix(kPlanarRows[static_cast<std::size_t>(r)],
+                          kPlanarRows[static_cast<std::size_t>(c)]);
+  return part;
+}
+
 OdometryUncertainty::OdometryUncertainty(const PoseGraph& graph,
-                                         const std::set<FactorId>& distrusted)
+                                         const std::set<FactorId>& distrusted,
+                                         const NoiseScale& scale)
 {
   names_.reserve(graph.nodes().size());
   places_.reserve(graph.nodes().size());
@@ -116,8 +125,9 @@ OdometryUncertainty::OdometryUncertainty(const PoseGraph& graph,
       if (motion) {
         place.T_start_node = orthonormal(before.T_start_node * motion->T_from_to);
         const TangentMatrix change = adjoint(place.T_start_node);
-        place.covariance =
-            before.covariance + change * motion->covariance * change.transpose();
+        place.covariance = before.covariance + change *
+                                                   scale.applyTo(motion->covariance) *
+                                                   change.transpose();
       }
     }
     names_.push_back(id);

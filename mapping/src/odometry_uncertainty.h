@@ -16,10 +16,24 @@ namespace nurbs {
 TangentMatrix
 adjoint(const Eigen::Isometry3d& motion);
 
+/** How many times smaller errors are than information matrices say. */
+struct NoiseScale {
+  double translation = 1.0;
+  double rotation = 1.0;
+
+  /** A covariance with its rows and columns scaled. */
+  TangentMatrix
+  applyTo(const TangentMatrix& covariance) const;
+};
+
 /** Inverse of an information matrix; directions of which it says nothing get a variance
  * that is large beside the others'. In the plane, about x, y and the turn only. */
 TangentMatrix
 covarianceOf(const TangentMatrix& information, bool planar);
+
+/** Rows and columns of what moves in the plane: x, y and the turn. */
+Eigen::Matrix3d
+planarPart(const TangentMatrix& matrix);
 
 /** A relative pose and how well it is known. */
 struct UncertainMotion {
@@ -40,8 +54,10 @@ squaredDistance(const Tangent& error, const TangentMatrix& covariance, bool plan
  * covariances propagated to first order. Sums from the start make any stretch O(1). */
 class OdometryUncertainty {
 public:
-  /** \param[in] distrusted factors to leave out */
-  OdometryUncertainty(const PoseGraph& graph, const std::set<FactorId>& distrusted);
+  /** \param[in] distrusted factors to leave out \param[in] scale of all errors */
+  OdometryUncertainty(const PoseGraph& graph,
+                      const std::set<FactorId>& distrusted,
+                      const NoiseScale& scale = {});
 
   /** From node to node; nothing if odometry does not join them. */
   std::optional<UncertainMotion>

@@ -4,8 +4,10 @@
 #include <pcl/mapping/pose_graph_robust.h>
 #include <pcl/mapping/stop_watch.h>
 
-#include "joint_distances.h"
+#include "joint_judgement.h"
 #include "loop_reweighting.h"
+#include "noise_scale.h"
+#include "pairwise_consistency.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -19,168 +21,105 @@ public:
   RobustOptimizer(PoseGraph& graph,
                   const std::vector<FactorId>& loops,
                   const RobustOptions& options)
-      : graph_(graph), options_(options), odometry_(graph, {loops.begin(), loops.end()})
+      : graph_(graph), options_(options), names_(loops.begin(), loops.end())
   {
-    const std::set<FactorId> once(loops.begin(), loops.end());
-    for (const FactorId id : once) {
-      loops_.push_back(judgedLoop(graph, id, options.probability));
-      JudgedLoop& loop = loops_.back();
-      loop.factor.first = node(loop.measured.from);
-      loop.factor.second = node(loop.measured.to);
-      graph.setWeight(id, 1.0);
-    }
-    initializeFromOdometry(graph);
+    for (const FactorId id : names_)
+      if (!std::holds_alternative<BetweenFactor>(graph.factor(id).measurement))
+        throw std::invalid_argument("factor " + std::to_string(id) +
+                                    " is no between factor, so it is no loop");
   }
 
   RobustSummary
   run()
   {
     StopWatch watch;
+    NoiseScale scale;
     if (options_.estimate_noise)
-      lowerLimits();
-    if (options_.check_cycles)
-      checkCycles();
-    applyMethod();
-    solve(options_.solver);
-    if (options_.check_jointly)
-      checkJointly();
-    for (const JudgedLoop& loop : loops_)
-      summary_.loops.push_back(loop.verdict);
+      scale = estimateNoiseScale(graph_, names_);
+    summary_.translation_scale = scale.translation;
+    summary_.rotation_scale = scale.rotation;
+    judged_ = judgedGraph(graph_, names_, scale, options_.probability);
+    initializeFromOdometry(judged_.graph);
+    judgeAll(OdometryUncertainty(graph_, names_, scale));
+    adopt();
+    summary_.solution = optimize(graph_, options_.solver);
     summary_.solution.seconds = watch.lap();
     return summary_;
   }
 
 private:
-  int
-  node(NodeId id) const
-  {
-    return static_cast<int>(odometry_.indexOf(id));
-  }
-
   void
-  judge(JudgedLoop& loop, LoopCheck check, double distance, double limit, bool accepted)
+  judgeAll(const OdometryUncertainty& odometry)
   {
-    loop.verdict = {loop.factor.id, accepted, check, distance, limit};
-    graph_.setWeight(loop.factor.id, accepted ? 1.0 : 0.0);
-  }
-
-  void
-  solve(const PoseGraphOptions& options)
-  {
-    summary_.solution = optimize(graph_, options);
-    ++summary_.solutions;
-  }
-
-  /** By the lower quartile of the cycles' distances, which false loops hardly touch as
-   * long as they are no more than the true ones. */
-  void
-  lowerLimits()
-  {
-    constexpr double kShare = 0.25;
-    constexpr std::size_t kFewest = 20;
-    std::vector<double> ratios;
-    for (const JudgedLoop& loop : loops_)
-      if (const auto distance = cycleDistance(loop.measured, odometry_))
-        ratios.push_back(*distance /
-                         chiSquareQuantile(freedomOf(loop.measured), kShare));
-    if (ratios.size() < kFewest)
+    solveWith(1e-4);
+    if (options_.check_cycles)
+      checkCycles(odometry);
+    applyMethod(odometry);
+    if (!options_.check_jointly)
       return;
-    const auto place =
-        ratios.begin() +
-        static_cast<std::ptrdiff_t>(kShare * static_cast<double>(ratios.size()));
-    std::nth_element(ratios.begin(), place, ratios.end());
-    summary_.noise_scale = std::min(1.0, *place);
-    for (JudgedLoop& loop : loops_)
-      loop.limit *= summary_.noise_scale;
+    solveWith(1e-8);
+    judged_.solve();
+    checkJointly(judged_, options_);
+  }
+
+  /** From now on, until a step lowers the cost by less than this share. */
+  void
+  solveWith(double tolerance)
+  {
+    judged_.solve = [this, tolerance] {
+      PoseGraphOptions options = options_.solver;
+      options.cost = PoseGraphCost::Information;
+      options.function_tolerance = std::max(tolerance, options.function_tolerance);
+      optimize(judged_.graph, options);
+      ++summary_.solutions;
+    };
   }
 
   void
-  checkCycles()
+  checkCycles(const OdometryUncertainty& odometry)
   {
-    for (JudgedLoop& loop : loops_)
-      if (const auto distance = cycleDistance(loop.measured, odometry_))
-        judge(loop,
-              LoopCheck::OdometryCycle,
-              *distance,
-              loop.limit,
-              *distance <= loop.limit);
+    for (JudgedLoop& loop : judged_.loops)
+      if (const auto distance = cycleDistance(loop.measured, odometry))
+        judged_.judge(loop,
+                      LoopCheck::OdometryCycle,
+                      *distance,
+                      loop.limit,
+                      *distance <= loop.limit);
   }
 
   void
-  applyMethod()
+  applyMethod(const OdometryUncertainty& odometry)
   {
-    PoseGraphOptions quick = options_.solver;
-    constexpr double kCoarse = 1e-4;
-    quick.function_tolerance = std::max(kCoarse, quick.function_tolerance);
-    const GraphSolver solver = [&] { solve(quick); };
     switch (options_.method) {
+    case RobustMethod::Consensus:
+      return growByCertainty(judged_, odometry, options_);
     case RobustMethod::GraduatedNonConvexity:
-      return rejectByGraduatedNonConvexity(graph_, loops_, options_, solver);
+      return rejectByGraduatedNonConvexity(judged_, options_);
     case RobustMethod::Switchable:
-      return rejectBySwitches(graph_, loops_, options_, solver);
+      return rejectBySwitches(judged_, options_);
     case RobustMethod::PairwiseConsistency:
-      return rejectByPairs();
-    }
-  }
-
-  void
-  rejectByPairs()
-  {
-    std::vector<JudgedLoop*> judged;
-    std::vector<MeasuredLoop> measured;
-    for (JudgedLoop& loop : loops_)
-      if (loop.verdict.accepted) {
-        judged.push_back(&loop);
-        measured.push_back(loop.measured);
-      }
-    if (judged.empty())
+      summary_.clique_proven = rejectByPairs(judged_, odometry, options_);
       return;
-    const NeighbourSets consistent =
-        consistentPairs(measured, odometry_, judged.front()->limit);
-    const Clique clique = maximumClique(consistent, options_.max_clique_steps);
-    summary_.clique_proven = clique.proven;
-    boost::dynamic_bitset<> members(judged.size());
-    for (const std::size_t k : clique.vertices)
-      members.set(k);
-    for (std::size_t k = 0; k < judged.size(); ++k)
-      judge(*judged[k],
-            LoopCheck::Pairs,
-            static_cast<double>((consistent[k] & members).count()),
-            static_cast<double>(clique.vertices.size()),
-            members[k]);
-  }
-
-  /** \return whether a verdict changed */
-  bool
-  judgeJointly(bool may_accept)
-  {
-    const JointDistances joint(graph_);
-    bool changed = false;
-    for (JudgedLoop& loop : loops_) {
-      const bool before = loop.verdict.accepted;
-      const double distance = joint.squaredDistance(loop.factor, before);
-      const bool after = distance <= loop.limit && (before || may_accept);
-      judge(loop, LoopCheck::JointDistance, distance, loop.limit, after);
-      changed = changed || before != after;
     }
-    return changed;
   }
 
+  /** Take verdicts and poses over to the graph. */
   void
-  checkJointly()
+  adopt()
   {
-    for (int round = 0; round < options_.max_joint_rounds; ++round) {
-      // In the second half only rejections, so that it ends.
-      if (!judgeJointly(2 * round < options_.max_joint_rounds))
-        return;
-      solve(options_.solver);
+    for (const JudgedLoop& loop : judged_.loops) {
+      graph_.setWeight(loop.verdict.factor, loop.verdict.accepted ? 1.0 : 0.0);
+      summary_.loops.push_back(loop.verdict);
     }
+    for (const auto& [id, node] : judged_.graph.nodes())
+      if (!node.fixed && node.has_estimate)
+        graph_.setPose(id, node.T_world_node);
   }
 
   PoseGraph& graph_;
   const RobustOptions& options_;
-  OdometryUncertainty odometry_;
-  std::vector<JudgedLoop> loops_;
+  std::set<FactorId> names_;
+  JudgedGraph judged_;
   RobustSummary summary_;
 };
 

@@ -14,6 +14,10 @@ namespace nurbs {
 /** \brief How loops that are false are found.
  * \ingroup mapping */
 enum class RobustMethod {
+  /** Accept loops one after the other, those first whose ends the odometry knows best,
+   * each if it agrees with what odometry and accepted loops say together. False loops
+   * never enter a solution, so they neither bend it nor fill its matrices. */
+  Consensus,
   /** Graduated non-convexity: weights from a loss that goes from convex to the wanted one
    * while the graph is optimised (Yang, Antonante, Tzoumas, Carlone, RA-L 5(2), 2020). */
   GraduatedNonConvexity,
@@ -35,13 +39,13 @@ enum class RobustLoss {
  * Mahalanobis distances, their limit a quantile of chi square with the degrees of freedom
  * of a pose. */
 struct RobustOptions {
-  RobustMethod method = RobustMethod::GraduatedNonConvexity;
+  RobustMethod method = RobustMethod::Consensus;
   RobustLoss loss = RobustLoss::TruncatedLeastSquares;
   /** Share of true loops that should pass each check, if covariances are right. */
   double probability = 0.99;
-  /** Lower the limits if the cycles of loops and odometry close better than the
-   * information matrices say. (They are never raised: information that claims too much is
-   * to be corrected by the caller.) */
+  /** Judge by smaller errors than information matrices say, if the cycles of loops and
+   * odometry close better. (Never by larger ones: information that claims too much is to
+   * be corrected by the caller.) The solution keeps the information it was given. */
   bool estimate_noise = true;
   /** Before the method: reject loops that contradict the odometry between their ends. */
   bool check_cycles = true;
@@ -90,8 +94,9 @@ struct RobustSummary {
   PoseGraphSummary solution;
   /** All loops that were judged, by name. */
   std::vector<LoopVerdict> loops;
-  /** Factor on covariances that limits were lowered by, at most 1. */
-  double noise_scale = 1.0;
+  /** Factors on errors that loops were judged by, at most 1. */
+  double translation_scale = 1.0;
+  double rotation_scale = 1.0;
   /** Optimisations of the graph. */
   int solutions = 0;
   /** The consistent set is the largest; PairwiseConsistency only. */
