@@ -26,6 +26,7 @@ struct DescriptionSums {
   double weighted_square = 0.0;
   double count = 0.0;
   double inliers = 0.0;
+  double near = 0.0;
 
   void
   operator+=(const DescriptionSums& other)
@@ -37,6 +38,7 @@ struct DescriptionSums {
     weighted_square += other.weighted_square;
     count += other.count;
     inliers += other.inliers;
+    near += other.near;
   }
 };
 
@@ -177,11 +179,14 @@ describeMatch(const MatchPairs& pairs,
     sums.weight += weight;
     sums.weighted_square += weight * term.square;
     sums.count += 1.0;
+    sums.near +=
+        (pair.place - pair.target).squaredNorm() <= voxel_size * voxel_size ? 1.0 : 0.0;
     sums.inliers += isInlier(pair, term, voxel_size) ? 1.0 : 0.0;
   };
   const auto sums = chunkedSum<DescriptionSums>(scan.size(), options.threads, add);
   result.correspondences = static_cast<std::size_t>(sums.count);
   result.inlier_share = sums.inliers / static_cast<double>(scan.size());
+  result.near_share = sums.near / static_cast<double>(scan.size());
   result.rmse = std::sqrt(sums.weighted_square / sums.weight);
   result.degeneracy = degeneracyOf(sums, options.min_support);
   setUncertainty(sums.curvature,

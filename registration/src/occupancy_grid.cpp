@@ -56,21 +56,33 @@ OccupancyGrid::spread()
       levels_[i] = static_cast<std::uint8_t>(highest[i] - 1);
 }
 
-int
-OccupancyGrid::fit(const ScanPoints& scan, const Eigen::Isometry3d& pose) const
+ScanPoints
+OccupancyGrid::placed(const ScanPoints& scan, const Eigen::Isometry3d& pose) const
 {
   const Eigen::Matrix3f turn = (pose.linear() / cell_size_).cast<float>();
   const Eigen::Vector3f shift =
       ((pose.translation() - corner_) / cell_size_).cast<float>();
+  ScanPoints places;
+  places.reserve(scan.size());
+  for (const Eigen::Vector3f& point : scan)
+    places.emplace_back(turn * point + shift);
+  return places;
+}
+
+int
+OccupancyGrid::fit(const ScanPoints& placed, const Eigen::Vector3f& shift) const
+{
+  constexpr auto kLast = static_cast<float>(kEdge);
   int sum = 0;
-  for (const Eigen::Vector3f& point : scan) {
-    const Eigen::Vector3f place = turn * point + shift;
-    if (!(place.minCoeff() >= 0.0F) || !(place.maxCoeff() < kEdge))
-      continue;
-    const auto x = static_cast<std::size_t>(place.x());
-    const auto y = static_cast<std::size_t>(place.y());
-    const auto z = static_cast<std::size_t>(place.z());
-    sum += levels_[(z * kRow + y) * kRow + x];
+  for (const Eigen::Vector3f& point : placed) {
+    const float x = point.x() + shift.x();
+    const float y = point.y() + shift.y();
+    const float z = point.z() + shift.z();
+    if (x >= 0.0F && y >= 0.0F && z >= 0.0F && x < kLast && y < kLast && z < kLast)
+      sum +=
+          levels_[(static_cast<std::size_t>(z) * kRow + static_cast<std::size_t>(y)) *
+                      kRow +
+                  static_cast<std::size_t>(x)];
   }
   return sum;
 }

@@ -24,17 +24,28 @@ public:
                 const Eigen::Vector3d& center,
                 double cell_size);
 
-  /** Sum over points of how near to occupied cells they are, kLevels for each at most;
-   * points outside count nothing. */
-  int
-  fit(const ScanPoints& scan, const Eigen::Isometry3d& pose) const;
-
+  /** The most that one point adds to a fit. */
   static constexpr int kLevels = 3;
 
   double
   cellSize() const
   {
     return cell_size_;
+  }
+
+  /** Points at a pose, in cells from the grid's corner. */
+  ScanPoints
+  placed(const ScanPoints& scan, const Eigen::Isometry3d& pose) const;
+
+  /** Sum over placed points of how near to occupied cells they are, when all are
+   * shifted by so many cells; points outside count nothing. */
+  int
+  fit(const ScanPoints& placed, const Eigen::Vector3f& shift) const;
+
+  int
+  fit(const ScanPoints& scan, const Eigen::Isometry3d& pose) const
+  {
+    return fit(placed(scan, pose), Eigen::Vector3f::Zero());
   }
 
 private:

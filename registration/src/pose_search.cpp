@@ -15,12 +15,16 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
-/** Points that are looked at, at most. */
+/** Points that are looked at, at most ... */
 constexpr std::size_t kMostPoints = 256;
+/** ... and first, to see whether the others are worth a look: */
+constexpr std::size_t kFirstPoints = 48;
+/** whether they fit so well, relative to the best. */
+constexpr double kWorthwhile = 0.7;
 /** Of the grid's half edge, as far as points are used. */
 constexpr double kReach = 0.85;
 /** Candidates of the lattice that are improved. */
-constexpr std::size_t kImproved = 24;
+constexpr std::size_t kImproved = 32;
 
 struct Candidate {
   Eigen::Isometry3d pose;
@@ -40,14 +44,10 @@ sparsePoints(const ScanPoints& scan, double cell_size)
   for (const Eigen::Vector3f& point : voxelSubsample(scan, cell_size))
     if (point.norm() < reach)
       near.push_back(point);
-  const std::size_t step = near.size() / kMostPoints + 1;
-  ScanPoints kept;
-  for (std::size_t i = 0; i < near.size(); i += step)
-    kept.push_back(near[i]);
-  return kept;
+  return everyNth(near, kMostPoints);
 }
 
-/** Rotation vectors of a body-centred lattice within a ball, the centre first. */
+/** Rotation vectors of a body-centred lattice within a ball. */
 std::vector<Eigen::Vector3d>
 rotationLattice(double max_angle, double step)
 {
@@ -57,41 +57,79 @@ rotationLattice(double max_angle, double step)
     for (int y = -n; y <= n; ++y)
       for (int z = -n; z <= n; ++z)
         for (const double half : {0.0, 0.5}) {
-          const Eigen::Vector3d v = step * Eigen::Vector3d(x + half, y + half, z + half);
+          const Eigen::Vector3d v =
+              step * Eigen::Vector3d(x + half, y + half, z + half);
           if (v.norm() <= max_angle)
             vectors.push_back(v);
         }
   return vectors;
 }
 
-Poses
-latticePoses(const Poses& starts, const PoseSearchRange& range, double cell_size)
+/** Shifts in cells, of the starts from the first one and around each of them. */
+std::vector<Eigen::Vector3f>
+latticeShifts(const Poses& starts, const PoseSearchRange& range, double cell_size)
 {
-  Poses poses = starts;
-  for (const Eigen::Vector3d& turn : rotationLattice(range.max_angle, range.angle_step))
-    for (const Eigen::Isometry3d& start : starts)
-      for (int x = -range.max_shift; x <= range.max_shift; x += range.shift_step)
-        for (int y = -range.max_shift; y <= range.max_shift; y += range.shift_step)
-          for (int z = -range.max_shift; z <= range.max_shift; z += range.shift_step) {
-            Tangent tangent = Tangent::Zero();
-            tangent.tail<3>() = turn;
-            Eigen::Isometry3d pose = starts.front() * exponential(tangent);
-            pose.translation() =
-                start.translation() + cell_size * Eigen::Vector3d(x, y, z);
-            poses.push_back(pose);
-          }
-  return poses;
+  std::vector<Eigen::Vector3f> shifts;
+  const int most = range.max_shift;
+  const int step = range.shift_step;
+  for (const Eigen::Isometry3d& start : starts) {
+    const Eigen::Vector3f first =
+        ((start.translation() - starts.front().translation()) / cell_size)
+            .cast<float>();
+    for (int x = -most; x <= most; x += step)
+      for (int y = -most; y <= most; y += step)
+        for (int z = -most; z <= most; z += step)
+          shifts.emplace_back(first + Eigen::Vector3i(x, y, z).cast<float>());
+  }
+  return shifts;
 }
 
-Candidates
-fits(const OccupancyGrid& grid, const ScanPoints& scan, const Poses& poses, int threads)
+/** A pose with the shift that suits it best. */
+Candidate
+bestShift(const OccupancyGrid& grid,
+          const ScanPoints& scan,
+          const std::vector<Eigen::Vector3f>& shifts,
+          const Eigen::Isometry3d& pose)
 {
-  Candidates candidates(poses.size());
+  const ScanPoints placed = grid.placed(scan, pose);
+  const ScanPoints some = everyNth(placed, kFirstPoints);
+  const double worthwhile = kWorthwhile * static_cast<double>(some.size()) /
+                            static_cast<double>(placed.size());
+  int best = -1;
+  Eigen::Vector3f shift = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& other : shifts) {
+    if (grid.fit(some, other) < worthwhile * best)
+      continue;
+    const int fit = grid.fit(placed, other);
+    if (fit > best) {
+      best = fit;
+      shift = other;
+    }
+  }
+  Candidate candidate{pose, best};
+  candidate.pose.translation() += grid.cellSize() * shift.cast<double>();
+  return candidate;
+}
+
+/** The best shift of each turn of the first start. */
+Candidates
+searchLattice(const OccupancyGrid& grid,
+              const ScanPoints& scan,
+              const Poses& starts,
+              const PoseSearchRange& range,
+              int threads)
+{
+  const auto turns = rotationLattice(range.max_angle, range.angle_step);
+  const auto shifts = latticeShifts(starts, range, grid.cellSize());
+  Candidates candidates(turns.size());
   const auto work = [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i)
-      candidates[i] = {poses[i], grid.fit(scan, poses[i])};
+    for (std::size_t i = begin; i < end; ++i) {
+      Tangent turn = Tangent::Zero();
+      turn.tail<3>() = turns[i];
+      candidates[i] = bestShift(grid, scan, shifts, starts.front() * exponential(turn));
+    }
   };
-  forChunks(poses.size(), threads, work);
+  forChunks(turns.size(), threads, work);
   return candidates;
 }
 
@@ -165,14 +203,17 @@ searchPoses(const VoxelMap& map,
             std::size_t most,
             int threads)
 {
-  const OccupancyGrid grid(map.points(), starts.front().translation(), cell_size);
   const ScanPoints points = sparsePoints(scan, cell_size);
-  Candidates candidates =
-      fits(grid, points, latticePoses(starts, range, cell_size), threads);
+  if (points.empty())
+    return {};
+  const OccupancyGrid grid(map.points(), starts.front().translation(), cell_size);
+  Candidates candidates = searchLattice(grid, points, starts, range, threads);
   sortByFit(candidates);
   candidates = different(candidates, cell_size, 0.8 * range.angle_step, kImproved);
-  for (Candidate& candidate : candidates)
+  for (Candidate& candidate : candidates) {
+    candidate.fit = grid.fit(points, candidate.pose);
     improve(grid, points, range.angle_step, candidate);
+  }
   sortByFit(candidates);
   Poses poses;
   for (const Candidate& candidate :

@@ -104,6 +104,18 @@ voxelSubsample(const ScanPoints& points, double voxel_size)
   return kept;
 }
 
+ScanPoints
+everyNth(const ScanPoints& points, std::size_t most)
+{
+  if (most == 0)
+    throw std::invalid_argument("everyNth: at least one point must be allowed");
+  const std::size_t step = std::max<std::size_t>((points.size() + most - 1) / most, 1);
+  ScanPoints kept;
+  for (std::size_t i = 0; i < points.size(); i += step)
+    kept.push_back(points[i]);
+  return kept;
+}
+
 double
 suitableVoxelSize(const ScanPoints& points)
 {

@@ -89,10 +89,10 @@ log(std::ostream& stream, std::size_t scan, const OdometryResult& result, double
 {
   stream << scan << " tracked " << result.tracked << " searched " << result.searched << " iterations "
          << result.match.iterations << " pairs " << result.match.correspondences
-         << " inliers " << result.match.inlier_share << " rmse " << result.match.rmse
+         << " inliers " << result.match.inlier_share << " near " << result.match.near_share << " rmse " << result.match.rmse
          << " threshold " << result.threshold << " unsupported "
          << result.match.degeneracy.unsupported << " least "
-         << result.match.degeneracy.support[0] << " ms " << ms << '\n';
+         << result.match.degeneracy.support[0] << " cpu_ms " << ms << '\n';
 }
 
 struct Totals {
@@ -130,15 +130,15 @@ run(const OdometryOptions& options, const po::variables_map& values)
     StopWatch watch;
     const std::clock_t start = std::clock();
     const OdometryResult result = odometry.process(scan.points, scan.times);
-    totals.cpu += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    const double seconds = watch.lap();
-    totals.wall += seconds;
+    const double cpu = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    totals.cpu += cpu;
+    totals.wall += watch.lap();
     totals.iterations += result.match.iterations;
     totals.lost += result.tracked ? 0 : 1;
     if (i == files.size() / 4)
       totals.early = memoryMegabytes("VmRSS");
     if (lines.is_open())
-      log(lines, i, result, 1e3 * seconds);
+      log(lines, i, result, 1e3 * cpu);
     trajectory.push_back({static_cast<double>(i), result.pose});
   }
   writeKittiTrajectory(values["out"].as<std::string>(), trajectory);

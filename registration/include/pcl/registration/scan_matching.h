@@ -67,6 +67,9 @@ struct MatchResult {
    * fifth of a voxel. A scan that is where it belongs has most of its points there but
    * for those that look at new places; one that is not, few. */
   double inlier_share = 0.0;
+  /** The same within a voxel of the target's points: the part of the scan that looks at
+   * known places, if the pose is right. */
+  double near_share = 0.0;
   /** Weighted root mean square residual, metres. */
   double rmse = 0.0;
   /** Of the pose, as Tangent says; unsupported directions have a variance of

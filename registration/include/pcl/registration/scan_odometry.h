@@ -29,8 +29,11 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   VoxelMapOptions map;
   /** One point of the scan per voxel of this size goes into the map ... */
   double map_spacing = 0.4;
-  /** ... and one per voxel of this size is matched. */
+  /** ... and one per voxel of this size is matched, but ... */
   double match_spacing = 0.8;
+  /** ... no more than so many points, evenly chosen: leaves and grass have many that
+   * add little. */
+  std::size_t max_match_points = 4500;
   /** Alignment; its maximal distance follows the motion. */
   MatchOptions match;
   MotionThresholdOptions threshold;
@@ -116,17 +119,21 @@ private:
   void
   track(OdometryResult& result);
 
-  /** Align from a start; keep it when more of the scan fits than at what is known. */
+  /** Align from a start; keep the result when more of the scan fits than before. */
   void
   tryStart(const ScanPoints& scan,
            const Eigen::Isometry3d& start,
+           int max_iterations,
            OdometryResult& result) const;
 
-  /** Look for starts around the last pose and the predicted one, and try them. */
+  /** Look for other starts and try them. */
   void
   searchStarts(const ScanPoints& scan,
                const PoseSearchRange& range,
                OdometryResult& result) const;
+
+  void
+  alignScan(const ScanPoints& scan, OdometryResult& result) const;
 
   void
   insert(const OdometryResult& result);
@@ -146,6 +153,8 @@ private:
   Eigen::Isometry3d keyframe_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d pruned_at_ = Eigen::Vector3d::Zero();
   bool any_keyframe_ = false;
+  /** Share of a scan that lies on the map, lately; 0 before anything is known. */
+  double usual_share_ = 0.0;
   int lost_ = 0;
 };
 
