@@ -167,6 +167,9 @@ ScanFiles::ScanFiles(const ScanReadOptions& read_options)
     throw std::invalid_argument("ScanReadOptions: the period must be positive");
   if (!(options.cloud.depth_scale >= 0.0))
     throw std::invalid_argument("ScanReadOptions: the depth scale must be positive");
+  if (options.cloud.bin_values_per_point != 3 &&
+      options.cloud.bin_values_per_point != 4)
+    throw std::invalid_argument("ScanReadOptions: .bin has 3 or 4 values per point");
 }
 
 void

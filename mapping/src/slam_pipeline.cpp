@@ -3,6 +3,8 @@
 
 #include <pcl/mapping/slam_pipeline.h>
 
+#include <stdexcept>
+
 namespace pcl {
 namespace nurbs {
 
@@ -25,6 +27,8 @@ SlamPipeline::SlamPipeline(const ScanSource& source, const SlamOptions& options)
       odometry_(options.odometry),
       graph_(options.graph, detectorFor(options))
 {
+  if (options.queue_capacity == 0)
+    throw std::invalid_argument("SlamPipeline: the queue's capacity must be positive");
 }
 
 void

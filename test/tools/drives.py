@@ -9,22 +9,22 @@ TR = "0 -1 0 0 0 0 -1 -0.08 1 0 0 -0.27"  # laser to camera, as KITTI's calib.tx
 
 
 def hall_point(generator):
-    """A point of the hall's walls, floor or pillars."""
+    """A point of the walls, the floor or a pillar of a hall of 20 x 10 x 4 m."""
     kind = generator.random()
     a, b = generator.random(), generator.random()
-    if kind < 0.3:
-        return 40 * a - 10, 14 * b - 7, -1.7
-    if kind < 0.55:
-        return 40 * a - 10, generator.choice((-7.0, 7.0)), 5 * b - 1.7
-    if kind < 0.75:
-        return generator.choice((-10.0, 30.0)), 14 * a - 7, 5 * b - 1.7
+    if kind < 0.35:
+        return 20 * a - 6, 10 * b - 5, -1.7
+    if kind < 0.65:
+        return 20 * a - 6, generator.choice((-5.0, 5.0)), 4 * b - 1.7
+    if kind < 0.8:
+        return generator.choice((-6.0, 14.0)), 10 * a - 5, 4 * b - 1.7
     angle = 2 * math.pi * a
-    pillar = generator.randrange(8)
-    return (5 * pillar - 6 + 0.4 * math.cos(angle), (4.0, -4.5)[pillar % 2] + 0.4 * math.sin(angle),
-            5 * b - 1.7)
+    pillar = generator.randrange(5)
+    return (4 * pillar - 4 + 0.5 * math.cos(angle), (3.0, -3.5)[pillar % 2] + 0.5 * math.sin(angle),
+            4 * b - 1.7)
 
 
-def scan(x, seed, points=2500):
+def scan(x, seed, points=4000):
     """What a laser at (x, 0, 0) that looks along x sees: floats x y z reflectance."""
     generator = random.Random(seed)
     values = array.array("f")
@@ -40,7 +40,7 @@ def camera_pose(x):
     return f"1 0 0 0 0 1 0 0 0 0 1 {x:.6f}\n"
 
 
-def write_kitti(folder, scans=12, step=0.3, points=2500, sequence="00"):
+def write_kitti(folder, scans=12, step=0.3, points=4000, sequence="00"):
     """A drive straight ahead in the layout of KITTI's odometry benchmark."""
     place = folder / "sequences" / sequence
     (place / "velodyne").mkdir(parents=True)

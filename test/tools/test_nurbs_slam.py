@@ -78,8 +78,9 @@ class Contract(SlamTest):
         self.assertEqual(struct.unpack(">II", data[16:24]), (1000, 760))
 
     def test_pose_graph(self):
-        write_kitti(self.folder, scans=20, step=0.8)
-        report = self.run_kitti()
+        write_kitti(self.folder)
+        report = self.run_kitti("--odometry.keyframe-distance", 1)
+        self.assertGreaterEqual(report["keyframes"], 3)
         tags = [line.split()[0] for line in
                 (self.folder / "out" / "pose_graph.g2o").read_text().splitlines()]
         self.assertEqual(tags.count("VERTEX_SE3:QUAT"), report["keyframes"])
@@ -103,7 +104,7 @@ class Contract(SlamTest):
         self.assertEqual(len(read_kitti(self.folder / "out" / "trajectory_kitti.txt")), 4)
 
     def test_by_the_clock(self):
-        write_kitti(self.folder, scans=30, step=0.02, points=400)
+        write_kitti(self.folder, scans=30, step=0.02)
         (self.folder / "sequences/00/times.txt").write_text(
             "".join(f"{0.0001 * k:.6f}\n" for k in range(30)))
         report = self.run_kitti("--realtime")
@@ -227,7 +228,7 @@ class Settings(SlamTest):
                                  ("count: 1\ncount: 2\n", 2, "twice"),
                                  ("count: 1\n  first: 2\n", 2, ""),
                                  ("- count\n", 1, "no settings"),
-                                 ("count: \"1\n", 2, "")):
+                                 ("count: \"1\n", 1, "")):
             self.write("bad.yaml", text)
             self.fail_with(2, "--config", "bad.yaml", "--dump-config",
                            says=["bad.yaml", f"line {line}", word])

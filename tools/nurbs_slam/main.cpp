@@ -31,12 +31,13 @@ makeFolder(const std::string& folder)
     throw ToolError(kCannotWrite, "cannot write " + folder + ": " + error.message());
 }
 
-/** Errors of options become those of usage. */
-SlamPipeline
-makePipeline(const SlamSettings& settings, const ScanSource& source)
+/** Run something; errors of options become those of usage. */
+template <typename Make>
+auto
+withUsage(const Make& make)
 {
   try {
-    return {source, settings.slam};
+    return make();
   } catch (const std::invalid_argument& problem) {
     throw ToolError(kUsage, problem.what());
   }
@@ -116,31 +117,33 @@ run(int argc, char** argv)
   if (!parsed)
     return;
   const SlamSettings& settings = *parsed;
-  const std::unique_ptr<ScanSource> source = openDataset(settings);
-  SlamPipeline pipeline = makePipeline(settings, *source);
+  const std::unique_ptr<ScanSource> source =
+      withUsage([&] { return openDataset(settings); });
+  const std::unique_ptr<SlamPipeline> pipeline =
+      withUsage([&] { return std::make_unique<SlamPipeline>(*source, settings.slam); });
   makeFolder(settings.out);
   {
     ProgressBar bar("tracking", settings.common.quiet);
-    pipeline.setProgress([&](std::size_t done, std::size_t all) {
+    pipeline->setProgress([&](std::size_t done, std::size_t all) {
       bar.update(static_cast<double>(done) / static_cast<double>(all));
       return !interrupted();
     });
     try {
-      pipeline.run();
+      pipeline->run();
     } catch (const InputError& error) {
       throw ToolError(kBadInput,
-                      error.what() + finishEarly(settings, *source, pipeline));
+                      error.what() + finishEarly(settings, *source, *pipeline));
     }
   }
-  const SlamResult& result = pipeline.result();
+  const SlamResult& result = pipeline->result();
   if (interrupted())
     throw ToolError(kInterrupted,
-                    "interrupted" + finishEarly(settings, *source, pipeline));
+                    "interrupted" + finishEarly(settings, *source, *pipeline));
   if (lostAtTheStart(result))
     throw ToolError(kNothingProduced,
                     "tracking was lost at the start: no scan could be aligned with the "
                     "one before");
-  const nlohmann::json report = finish(settings, *source, pipeline);
+  const nlohmann::json report = finish(settings, *source, *pipeline);
   if (!settings.common.quiet)
     print(settings, report);
 }
