@@ -181,7 +181,7 @@ groupSurfacesAnd(SurfaceStages& stages,
   if (options.join_smooth)
     joinSmooth(input, edges, facet_cells, parts, surfaces);
   if (options.join_separated)
-    joinSeparated(input, surfaces);
+    joinSeparated(input, facet_cells, surfaces);
   return labelSurfaces(input, cells.labels(), surfaces, labels, groups);
 }
 

@@ -56,9 +56,13 @@ joinSmooth(const JoiningInput& input,
            DisjointSets& surfaces);
 
 /** Join facets that one model explains although they do not touch, when the gap between
- * them is no larger than they are. O(facets^2). */
+ * them is no larger than they are and what lies in it does not contradict: an occluder
+ * or no reading does not, but points behind the model do, for their rays went through
+ * it. O(cells + facets^2). */
 void
-joinSeparated(const JoiningInput& input, DisjointSets& surfaces);
+joinSeparated(const JoiningInput& input,
+              const FacetCells& cells,
+              DisjointSets& surfaces);
 
 } // namespace nurbs
 } // namespace pcl
