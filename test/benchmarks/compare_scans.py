@@ -8,7 +8,8 @@ Each argument NAME=FOLDER names a column and a folder of .bin files, e.g.
   compare_scans.py "real 07"=KITTI/sequences/07/velodyne "town"=town/sequences/00/velodyne
 
 Rings are told by the order of the points: each file holds ring after ring, turning one
-way, so the angle turned so far says which ring a point is of.
+way, so the angle turned so far says which ring a point is of. Every ring must have
+returns all around, as in streets: it does not work under an open sky.
 """
 import argparse
 import pathlib
@@ -94,9 +95,10 @@ def wall_residuals(scan):
     normal = voxels.normal[voxels.cell]
     cosine = np.abs(np.sum(ray * normal, 1))
     use = voxels.flat[voxels.cell] & (np.abs(normal[:, 2]) < 0.2) & (cosine > 0.6)
-    residual = np.sum(voxels.offset * normal, 1) / np.sum(ray * normal, 1)
-    use &= np.abs(residual) < 0.15
-    return residual[use], scan.ring[use]
+    ring, normal, ray, offset = scan.ring[use], normal[use], ray[use], voxels.offset[use]
+    residual = np.sum(offset * normal, 1) / np.sum(ray * normal, 1)
+    inlier = np.abs(residual) < 0.15
+    return residual[inlier], ring[inlier]
 
 
 def ring_offsets(scans):

@@ -199,10 +199,12 @@ TEST(SimulatedDrive, theOwnBodyHidesWhatIsBehindIt)
       const double azimuth = (column + 0.5) * M_PI / 180.0;
       const double wall = std::tan(M_PI / 18.0) * std::cos(azimuth);
       const double down = std::tan(-laser.elevations[static_cast<std::size_t>(row)]);
-      if (behind && down > wall + 1e-9) // below the top of the front side
+      if (behind && down > wall + 1e-9) { // below the top of the front side
         EXPECT_FALSE(is) << row << ' ' << column;
-      else if (!behind || down < wall / 1.1 - 1e-9) // above the top altogether
+      }
+      else if (!behind || down < wall / 1.1 - 1e-9) { // above the top altogether
         EXPECT_EQ(is, was) << row << ' ' << column;
+      }
       gone += was && !is ? 1 : 0;
     }
   EXPECT_GT(gone, 1000);

@@ -93,8 +93,8 @@ class Layout(Simulation):
             self.assertEqual(files[name][:8], b"\x89PNG\r\n\x1a\n")
         poses = [line for line in files["groundtruth.txt"].decode().splitlines()
                  if not line.startswith("#")]
-        self.assertEqual([line.split()[0] for line in poses],
-                         [line.split()[0] for line in lines[1:]])
+        self.assertEqual([float(line.split()[0]) for line in poses],
+                         [float(line.split()[0]) for line in lines[1:]])
 
     def test_part_of_a_drive_is_that_part(self):
         self.succeed("--out", "all", "--columns", "60", "--scans", "5", "--quiet")

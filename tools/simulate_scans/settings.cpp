@@ -116,7 +116,9 @@ parseSettings(int argc, char** argv, SimulationSettings& settings)
       "simulate_scans --out FOLDER\n"
       "Drive through a made-up town of exact surfaces and write what a laser\n"
       "or a depth camera sees, with the true poses.\n",
-      ""};
+      "\nExit codes: 0 done, 1 wrong usage, 2 unusable input, 4 an output could not "
+      "be\n"
+      "written, 130 interrupted; scans finished before 4 and 130 are a valid drive.\n"};
   if (!parseCommandLine(argc, argv, texts, options, nullptr))
     return false;
   requireSensible(settings);
