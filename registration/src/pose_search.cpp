@@ -44,7 +44,7 @@ sparsePoints(const ScanPoints& scan, double cell_size)
   for (const Eigen::Vector3f& point : voxelSubsample(scan, cell_size))
     if (point.norm() < reach)
       near.push_back(point);
-  return everyNth(near, kMostPoints);
+  return thinned(near, kMostPoints);
 }
 
 /** Rotation vectors of a body-centred lattice within a ball. */
@@ -92,7 +92,7 @@ bestShift(const OccupancyGrid& grid,
           const Eigen::Isometry3d& pose)
 {
   const ScanPoints placed = grid.placed(scan, pose);
-  const ScanPoints some = everyNth(placed, kFirstPoints);
+  const ScanPoints some = thinned(placed, kFirstPoints);
   const double worthwhile = kWorthwhile * static_cast<double>(some.size()) /
                             static_cast<double>(placed.size());
   int best = -1;

@@ -213,8 +213,8 @@ ScanOdometry::track(OdometryResult& result)
 {
   const Eigen::Isometry3d predicted = result.pose;
   result.threshold = threshold_.value();
-  alignScan(everyNth(voxelSubsample(result.points, options_.match_spacing),
-                     options_.max_match_points),
+  alignScan(thinned(voxelSubsample(result.points, options_.match_spacing),
+                    options_.max_match_points),
             result);
   const double share = result.match.inlier_share;
   result.tracked = result.match.converged &&

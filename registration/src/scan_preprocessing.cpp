@@ -105,14 +105,15 @@ voxelSubsample(const ScanPoints& points, double voxel_size)
 }
 
 ScanPoints
-everyNth(const ScanPoints& points, std::size_t most)
+thinned(const ScanPoints& points, std::size_t most)
 {
-  if (most == 0)
-    throw std::invalid_argument("everyNth: at least one point must be allowed");
-  const std::size_t step = std::max<std::size_t>((points.size() + most - 1) / most, 1);
+  if (points.size() <= most)
+    return points;
   ScanPoints kept;
-  for (std::size_t i = 0; i < points.size(); i += step)
-    kept.push_back(points[i]);
+  kept.reserve(most);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if ((i + 1) * most / points.size() > i * most / points.size())
+      kept.push_back(points[i]);
   return kept;
 }
 

@@ -46,10 +46,9 @@ finitePoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
 PCL_NURBS_REGISTRATION_EXPORT ScanPoints
 voxelSubsample(const ScanPoints& points, double voxel_size);
 
-/** \brief Every n-th point, n the smallest with which there are no more than \a most.
- * \throws std::invalid_argument when that is 0 */
+/** \brief So many points at most, evenly chosen in the scan's order. O(points) */
 PCL_NURBS_REGISTRATION_EXPORT ScanPoints
-everyNth(const ScanPoints& points, std::size_t most);
+thinned(const ScanPoints& points, std::size_t most);
 
 /** \brief A size of voxels that suits a cloud: the smallest at which about as many
  * places look flat as at any other size. O(points * log(extent / spacing))
