@@ -75,7 +75,7 @@ private:
           std::from_chars(first, word.data() + word.size(), value);
       if (error != std::errc() || last != word.data() + word.size() ||
           !std::isfinite(value))
-        fail("\"" + std::string(word.substr(0, 20)) + "\" is not a finite number");
+        fail(quoted(word) + " is not a finite number");
       numbers.push_back(value);
       at = end;
     }

@@ -45,8 +45,8 @@ loopOptions()
 struct DriftingDrive {
   Scene scene = street();
   Trajectory truth;
-  double turn_per_metre = 4e-4;
-  double stretch = 0.01;
+  double turn_per_metre = 2e-3;
+  double stretch = 0.005;
   std::size_t lost_from = 0; // scans whose alignment failed
   std::size_t lost_to = 0;
 

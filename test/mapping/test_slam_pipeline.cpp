@@ -18,12 +18,13 @@ namespace {
 using namespace pcl::nurbs;
 using namespace pcl::nurbs::test;
 
-constexpr double kStep = 0.03; // of the ellipse's angle, up to 0.45 m
+constexpr double kStep = 0.06; // of the ellipse's angle, up to 0.09 m
+constexpr Ellipse kWay{1.5, 0.8};
 
 SceneDrive
-drive(std::size_t scans, int points = 6000)
+drive(std::size_t scans, int points = 4000)
 {
-  return SceneDrive(street(), ellipseDrive(scans, kStep), points);
+  return SceneDrive(room(), ellipseDrive(scans, kStep, kWay), points);
 }
 
 SlamOptions
@@ -31,7 +32,10 @@ options(int threads = 2)
 {
   SlamOptions result;
   result.odometry.threads = threads;
-  result.odometry.min_range = 0.5;
+  result.odometry.min_range = 0.1; // in a room
+  result.odometry.map_spacing = 0.1;
+  result.odometry.match_spacing = 0.2;
+  result.odometry.keyframe_distance = 0.5;
   return result;
 }
 
@@ -107,7 +111,7 @@ TEST(SlamPipeline, firstCountAndStride)
 
 TEST(SlamPipeline, endsWhereProgressSaysSo)
 {
-  const SceneDrive source = drive(1000, 1500);
+  const SceneDrive source = drive(1000, 2000);
   SlamPipeline pipeline(source, options());
   pipeline.setProgress([](std::size_t done, std::size_t) { return done < 7; });
   pipeline.run();
@@ -139,11 +143,11 @@ TEST(SlamPipeline, emptyAndNanScansAreBridgedAndTold)
 
 TEST(SlamPipeline, scansSeenTwiceDoNotMove)
 {
-  Trajectory truth = ellipseDrive(12, kStep);
+  Trajectory truth = ellipseDrive(12, kStep, kWay);
   for (std::size_t k = 6; k < truth.size(); ++k)
     truth[k].T_world_body = truth[5].T_world_body; // stands still
   truth[8].stamp = truth[7].stamp;                 // and one is there twice
-  const SceneDrive source(street(), truth, 6000);
+  const SceneDrive source(room(), truth, 4000);
   SlamPipeline pipeline(source, options());
   pipeline.run();
   const Trajectory& poses = pipeline.result().trajectory;
@@ -184,10 +188,10 @@ TEST(SlamPipeline, aDamagedScanEndsTheDriveOrIsLeftOut)
 
 TEST(SlamPipeline, byTheClockSlowWorkSkipsScans)
 {
-  Trajectory truth = ellipseDrive(60, 0.002);
+  Trajectory truth = ellipseDrive(60, 0.002, kWay);
   for (std::size_t k = 0; k < truth.size(); ++k)
     truth[k].stamp = 0.01 * static_cast<double>(k);
-  SceneDrive source(street(), truth, 500);
+  SceneDrive source(room(), truth, 2000);
   source.setChange([](std::size_t, Scan&) {
     std::this_thread::sleep_for(std::chrono::milliseconds(35)); // of a period of 10
   });
@@ -204,7 +208,7 @@ TEST(SlamPipeline, byTheClockSlowWorkSkipsScans)
 
 TEST(SlamPipeline, byTheClockFastWorkWaits)
 {
-  const SceneDrive source = drive(5, 300);
+  const SceneDrive source = drive(5, 2000);
   SlamOptions realtime = options();
   realtime.feed.realtime = true;
   SlamPipeline pipeline(source, realtime);
@@ -216,15 +220,15 @@ TEST(SlamPipeline, byTheClockFastWorkWaits)
 TEST(SlamPipeline, motionWithinScansIsUndone)
 {
   // Each point is measured from where the sensor is at its time.
-  const Trajectory truth = ellipseDrive(15, kStep);
-  SceneDrive source(street(), truth, 6000);
+  const Trajectory truth = ellipseDrive(15, kStep, kWay);
+  SceneDrive source(room(), truth, 4000);
   source.setChange([&](std::size_t k, Scan& scan) {
     const Eigen::Isometry3d at = truth[k].T_world_body;
     for (std::size_t i = 0; i < scan.cloud->size(); ++i) {
       const double time = 0.1 * (static_cast<double>(i % 100) / 100.0 - 0.5);
       scan.point_times.push_back(static_cast<float>(time));
       const Eigen::Isometry3d then =
-          onEllipse(kStep * (static_cast<double>(k) + time / 0.1));
+          onEllipse(kStep * (static_cast<double>(k) + time / 0.1), kWay);
       auto point = (*scan.cloud)[i].getVector3fMap();
       point = (then.inverse() * at * point.cast<double>()).cast<float>();
     }

@@ -16,16 +16,21 @@ namespace pcl {
 namespace nurbs {
 namespace test {
 
-/** A closed drive through street(): an ellipse of about 62 m, looking ahead. */
+/** A closed drive: an ellipse with half axes, looking ahead. */
+struct Ellipse {
+  double a = 15.0; // about 62 m around, in street()
+  double b = 2.0;
+};
+
 inline Eigen::Isometry3d
-onEllipse(double angle)
+onEllipse(double angle, const Ellipse& ellipse = {})
 {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() << 15.0 * std::cos(angle), 2.0 * std::sin(angle), 0.0;
-  pose.linear() =
-      Eigen::AngleAxisd(std::atan2(2.0 * std::cos(angle), -15.0 * std::sin(angle)),
-                        Eigen::Vector3d::UnitZ())
-          .matrix();
+  pose.translation() << ellipse.a * std::cos(angle), ellipse.b * std::sin(angle), 0.0;
+  pose.linear() = Eigen::AngleAxisd(std::atan2(ellipse.b * std::cos(angle),
+                                               -ellipse.a * std::sin(angle)),
+                                    Eigen::Vector3d::UnitZ())
+                      .matrix();
   return pose;
 }
 
@@ -99,12 +104,12 @@ private:
 
 /** Poses on the ellipse, a tenth of a second apart. */
 inline Trajectory
-ellipseDrive(std::size_t scans, double step)
+ellipseDrive(std::size_t scans, double step, const Ellipse& ellipse = {})
 {
   Trajectory drive;
   for (std::size_t k = 0; k < scans; ++k)
-    drive.push_back(
-        {0.1 * static_cast<double>(k), onEllipse(step * static_cast<double>(k))});
+    drive.push_back({0.1 * static_cast<double>(k),
+                     onEllipse(step * static_cast<double>(k), ellipse)});
   return drive;
 }
 
