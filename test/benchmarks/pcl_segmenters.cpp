@@ -197,7 +197,8 @@ pclMethods()
            {multiPlane(2, 0.01),
             multiPlane(3, 0.02),
             multiPlane(6, 0.02),
-            multiPlane(6, 0.05)}},
+            multiPlane(6, 0.05),
+            multiPlane(10, 0.2)}},
           {"RegionGrowing",
            {regionGrowing(30, 3, 0.05),
             regionGrowing(50, 3, 1.0),
@@ -206,13 +207,16 @@ pclMethods()
           {"VCCS",
            {supervoxels(0.006, 0.05, -1),
             supervoxels(0.01, 0.1, -1),
-            supervoxels(0.02, 0.2, -1)}},
+            supervoxels(0.02, 0.2, -1),
+            supervoxels(0.1, 1.0, -1)}},
           {"VCCS + LCCP",
            {supervoxels(0.006, 0.02, 10),
             supervoxels(0.006, 0.04, 10),
             supervoxels(0.01, 0.06, 10),
-            supervoxels(0.02, 0.12, 10)}},
-          {"EuclideanClusters", {euclidean(0.006), euclidean(0.01), euclidean(0.02)}}};
+            supervoxels(0.02, 0.12, 10),
+            supervoxels(0.1, 0.6, 10)}},
+          {"EuclideanClusters",
+           {euclidean(0.006), euclidean(0.01), euclidean(0.02), euclidean(0.3)}}};
 }
 
 } // namespace bench

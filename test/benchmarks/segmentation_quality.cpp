@@ -6,11 +6,8 @@
 // doc/segmentation_quality.md:
 //   segmentation_quality DATA_FOLDER OUT.md [METHOD]
 
-#include "pcl_segmenters.h"
-#include "segmentation_scores.h"
+#include "labelled_scenes.h"
 
-#include <pcl/io/pcd_io.h>
-#include <pcl/mapping/demo_scene.h>
 #include <pcl/segmentation/cloud_organizer.h>
 #include <pcl/segmentation/grid_segmentation.h>
 #include <pcl/segmentation/object_grouping.h>
@@ -20,7 +17,6 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -55,73 +51,6 @@ The sum of correct and over-segmented regions, with no under-segmented one, says
 many objects can be put together from surfaces.
 
 )";
-
-struct Scene {
-  Cloud::Ptr cloud{new Cloud};
-  LabelImage truth;
-};
-
-struct SceneSet {
-  std::string name;
-  std::string about;
-  std::vector<Scene> scenes;
-};
-
-template <typename PointT, typename Label>
-Scene
-readScene(const std::string& path, const Label& label)
-{
-  pcl::PointCloud<PointT> file;
-  if (pcl::io::loadPCDFile(path, file) != 0)
-    throw std::runtime_error(path + ": cannot be read");
-  Scene scene;
-  pcl::copyPointCloud(file, *scene.cloud);
-  for (const PointT& point : file)
-    scene.truth.push_back(std::isfinite(point.z) ? label(point) : 0);
-  return scene;
-}
-
-SceneSet
-readOsd(const std::filesystem::path& data)
-{
-  SceneSet set{"OSD", "Kinect, 8 table tops, hand labels of whole objects", {}};
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(data / "osd_labelled"))
-    if (entry.path().extension() == ".pcd")
-      files.push_back(entry.path().string());
-  std::sort(files.begin(), files.end());
-  for (const std::string& file : files)
-    set.scenes.push_back(
-        readScene<PointXYZL>(file, [](const PointXYZL& p) { return p.label; }));
-  return set;
-}
-
-SceneSet
-readSynpeb(const std::filesystem::path& data)
-{
-  SceneSet set{"SynPEB", "laser, one room of 39 planes, exact labels", {}};
-  set.scenes.push_back(readScene<PointXYZI>(
-      (data / "synpeb_room" / "test_500.pcd").string(), [](const PointXYZI& p) {
-        return static_cast<std::uint32_t>(std::lround(p.intensity));
-      }));
-  return set;
-}
-
-SceneSet
-simulate()
-{
-  SceneSet set{"Simulated room",
-               "Kinect noise, planes, wavy wall, column, dome, arch and box; exact "
-               "labels of surfaces",
-               {}};
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    DemoSceneOptions options;
-    options.seed = seed;
-    const DemoScene demo(options);
-    set.scenes.push_back({demo.cloud(), demo.labels()});
-  }
-  return set;
-}
 
 /** Our methods, on the recognised raster and the measured noise, defaults only. */
 template <typename Group>
@@ -202,7 +131,7 @@ measure(const SceneSet& set, const Setting& setting)
   Row row;
   row.parameters = setting.parameters;
   const auto scenes = static_cast<double>(set.scenes.size());
-  for (const Scene& scene : set.scenes) {
+  for (const LabelledScene& scene : set.scenes) {
     const auto start = std::chrono::steady_clock::now();
     const Labels labels = setting.segment(scene.cloud);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
@@ -291,7 +220,8 @@ main(int argc, char** argv)
                                    }),
                     methods.end());
     std::string text = kIntroduction;
-    for (const SceneSet& set : {simulate(), readSynpeb(argv[1]), readOsd(argv[1])})
+    for (const SceneSet& set :
+         {simulateRoom(), simulateStreet(), readSynpeb(argv[1]), readOsd(argv[1])})
       text += table(set, methods);
     std::ofstream(argv[2]) << text;
   } catch (const std::exception& error) {
