@@ -3,6 +3,8 @@
 
 #include "path_plot.h"
 
+#include "view_axes.h"
+
 namespace pcl_nurbs_tools {
 
 using pcl::nurbs::StampedPose;
@@ -10,20 +12,17 @@ using pcl::nurbs::StampedPose;
 LinePlot
 pathPlot(const std::vector<std::pair<std::string, pcl::nurbs::Trajectory>>& paths)
 {
-  static const char* const names[] = {"x (m)", "y (m)", "z (m)"};
   Eigen::AlignedBox3d box;
   for (const StampedPose& pose : paths.front().second)
     box.extend(pose.T_world_body.translation());
-  Eigen::Index least = 0;
-  box.sizes().minCoeff(&least);
-  const Eigen::Index across = least == 0 ? 1 : 0;
-  const Eigen::Index up = least == 2 ? 1 : 2;
-  LinePlot plot{"Paths", names[across], names[up], true, {}};
+  const ViewAxes axes = axesAcrossLeastExtent(box);
+  LinePlot plot{"Paths", axes.across_label, axes.up_label, true, {}};
   for (const auto& [name, trajectory] : paths) {
     plot.lines.push_back({name, {}});
     for (const StampedPose& pose : trajectory)
-      plot.lines.back().points.emplace_back(pose.T_world_body.translation()(across),
-                                            pose.T_world_body.translation()(up));
+      plot.lines.back().points.emplace_back(
+          pose.T_world_body.translation()(axes.across),
+          pose.T_world_body.translation()(axes.up));
   }
   return plot;
 }
