@@ -38,7 +38,7 @@ loadInputFile(const std::string& path, std::size_t max_size)
 }
 
 std::string
-quoted(std::string_view word)
+quotedWord(std::string_view word)
 {
   constexpr std::size_t kMost = 20;
   std::string text(word.substr(0, kMost));

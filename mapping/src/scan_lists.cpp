@@ -70,7 +70,7 @@ numberOf(const std::filesystem::path& file, const std::string& word)
   const auto [end, error] =
       std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    throw InputError(file.string(), quoted(word) + " is not a finite number");
+    throw InputError(file.string(), quotedWord(word) + " is not a finite number");
   return value;
 }
 

@@ -75,7 +75,7 @@ private:
           std::from_chars(first, word.data() + word.size(), value);
       if (error != std::errc() || last != word.data() + word.size() ||
           !std::isfinite(value))
-        fail(quoted(word) + " is not a finite number");
+        fail(quotedWord(word) + " is not a finite number");
       numbers.push_back(value);
       at = end;
     }
