@@ -4,7 +4,6 @@
 #include <pcl/mapping/pose_graph_solver.h>
 
 #include "elimination_order.h"
-#include "odometry_chain.h"
 #include "pose_graph_problem.h"
 
 #include <Eigen/SVD>
@@ -246,7 +245,7 @@ private:
 void
 initializeChordal(PoseGraph& graph, PoseGraphCost form)
 {
-  completeFromOdometry(graph);
+  completeEstimates(graph);
   PoseGraphProblem problem = problemOf(graph, form);
   ChordalRelaxation(graph, problem).run();
   writeBack(problem, graph);

@@ -249,5 +249,15 @@ writeG2o(const std::string& path, const PoseGraph& graph, const G2oLayout* layou
   writeFileAtomically(path, compressed ? deflateGzip(text) : text);
 }
 
+Trajectory
+trajectoryOf(const PoseGraph& graph)
+{
+  Trajectory result;
+  for (const auto& [id, node] : graph.nodes())
+    if (node.has_estimate)
+      result.push_back({static_cast<double>(id), node.T_world_node});
+  return result;
+}
+
 } // namespace nurbs
 } // namespace pcl

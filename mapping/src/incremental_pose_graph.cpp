@@ -4,7 +4,6 @@
 #include <pcl/mapping/incremental_pose_graph.h>
 
 #include "incremental_equations.h"
-#include "odometry_chain.h"
 
 #include <stdexcept>
 
@@ -89,7 +88,7 @@ IncrementalPoseGraph::IncrementalPoseGraph(PoseGraph graph,
                                            const IncrementalOptions& options)
     : IncrementalPoseGraph(options)
 {
-  completeFromOdometry(graph);
+  completeEstimates(graph);
   implementation_->graph = std::move(graph);
   implementation_->rebuild_is_due = true;
 }

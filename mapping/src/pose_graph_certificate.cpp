@@ -5,7 +5,6 @@
 
 #include "clique_tree.h"
 #include "elimination_order.h"
-#include "odometry_chain.h"
 #include "pose_graph_problem.h"
 
 #include <pcl/mapping/stop_watch.h>
@@ -333,7 +332,7 @@ optimizeFromBestStart(PoseGraph& graph, const PoseGraphOptions& options)
 {
   StopWatch watch;
   GlobalSummary result;
-  completeFromOdometry(graph);
+  completeEstimates(graph);
   result.given_cost = costOf(graph, options.cost);
   PoseGraph other = graph;
   initializeChordal(other, options.cost);

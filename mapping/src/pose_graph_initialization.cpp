@@ -3,8 +3,6 @@
 
 #include <pcl/mapping/pose_graph_solver.h>
 
-#include "odometry_chain.h"
-
 #include <cmath>
 #include <queue>
 #include <random>
@@ -131,7 +129,7 @@ meanLength(const PoseGraph& graph)
 } // namespace
 
 void
-completeFromOdometry(PoseGraph& graph)
+completeEstimates(PoseGraph& graph)
 {
   ChainWalk walk(graph);
   bool complete = true;

@@ -183,9 +183,14 @@ problemOf(const PoseGraph& graph, PoseGraphCost form)
 void
 writeBack(const PoseGraphProblem& problem, PoseGraph& graph)
 {
-  for (std::size_t k = 0; k < problem.names.size(); ++k)
-    if (problem.held[k] == 0)
+  for (std::size_t k = 0; k < problem.names.size(); ++k) {
+    if (problem.held[k] != 0)
+      continue;
+    const SolverPose before = toSolverPose(graph.node(problem.names[k]).T_world_node);
+    if (before.translation != problem.poses[k].translation || // else not one bit changes
+        before.rotation.coeffs() != problem.poses[k].rotation.coeffs())
       graph.setPose(problem.names[k], toIsometry(problem.poses[k]));
+  }
 }
 
 } // namespace nurbs

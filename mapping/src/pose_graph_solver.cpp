@@ -5,7 +5,6 @@
 
 #include "ceres_poses.h"
 #include "elimination_order.h"
-#include "odometry_chain.h"
 #include "pose_graph_equations.h"
 #include "pose_graph_problem.h"
 
@@ -180,7 +179,7 @@ optimize(PoseGraph& graph, const PoseGraphOptions& options)
 {
   options.validate();
   StopWatch watch;
-  completeFromOdometry(graph);
+  completeEstimates(graph);
   PoseGraphProblem problem = problemOf(graph, options.cost);
   PoseGraphSummary summary;
   summary.components = problem.components;

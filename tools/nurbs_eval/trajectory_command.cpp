@@ -6,6 +6,7 @@
 #include "line_plot.h"
 #include "run_tool.h"
 #include "trajectory_settings.h"
+#include "view_axes.h"
 
 #include <pcl/mapping/cloud_reader.h>
 #include <pcl/mapping/trajectory_metrics.h>
@@ -132,20 +133,17 @@ print(const TrajectorySettings& settings, const nlohmann::json& report)
 LinePlot
 pathPlot(const Evaluation& evaluation)
 {
-  static const char* const names[] = {"x (m)", "y (m)", "z (m)"};
   Eigen::AlignedBox3d box;
   for (const StampedPose& pose : evaluation.pair.reference)
     box.extend(pose.T_world_body.translation());
-  Eigen::Index least = 0;
-  box.sizes().minCoeff(&least);
-  const Eigen::Index across = least == 0 ? 1 : 0;
-  const Eigen::Index up = least == 2 ? 1 : 2;
-  LinePlot plot{"Paths", names[across], names[up], true, {}};
+  const ViewAxes axes = axesAcrossLeastExtent(box);
+  LinePlot plot{"Paths", axes.across_label, axes.up_label, true, {}};
   const auto add = [&](const char* name, const Trajectory& trajectory) {
     plot.lines.push_back({name, {}});
     for (const StampedPose& pose : trajectory)
-      plot.lines.back().points.emplace_back(pose.T_world_body.translation()(across),
-                                            pose.T_world_body.translation()(up));
+      plot.lines.back().points.emplace_back(
+          pose.T_world_body.translation()(axes.across),
+          pose.T_world_body.translation()(axes.up));
   };
   add("reference", evaluation.pair.reference);
   add("estimate", evaluation.pair.estimate);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl/mapping/pose_graph.h>
+#include <pcl/mapping/trajectory.h>
 
 #include <cstddef>
 #include <memory>
@@ -72,6 +73,11 @@ PCL_NURBS_MAPPING_EXPORT void
 writeG2o(const std::string& path,
          const PoseGraph& graph,
          const G2oLayout* layout = nullptr);
+
+/** \brief Poses of the nodes in the order of their names, which are the stamps; without
+ * those that have no estimate. */
+PCL_NURBS_MAPPING_EXPORT Trajectory
+trajectoryOf(const PoseGraph& graph);
 
 } // namespace nurbs
 } // namespace pcl

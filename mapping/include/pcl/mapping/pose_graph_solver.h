@@ -10,6 +10,11 @@
 namespace pcl {
 namespace nurbs {
 
+/** \brief Give a pose to every node that has none, along the between factors from those
+ * that have; optimize() begins with it. O(n log n). */
+PCL_NURBS_MAPPING_EXPORT void
+completeEstimates(PoseGraph& graph);
+
 /** \brief Give every node a pose by going along the between factors from the node of
  * smallest name (or the fixed ones) of each part; consecutive names first, so that
  * odometry is followed where there is some. Fixed nodes stay. O(n log n). */
@@ -73,7 +78,7 @@ struct PoseGraphSummary {
 /** \brief Move the nodes to a minimum of the cost near their estimates: nonlinear least
  * squares by Ceres on the manifold of poses, with analytic derivatives, sparse Cholesky
  * and nested dissection. Nodes without estimates get them first, by
- * initializeFromOdometry() along the factors from those that have. A part of the graph
+ * completeEstimates(). A part of the graph
  * without fixed nodes and without factors that tie it to the world keeps the pose of
  * its node of smallest name. Nodes without factors stay.
  * \throws std::invalid_argument for bad options */
