@@ -3,7 +3,7 @@
 
 #include "joint_judgement.h"
 
-#include "joint_distances.h"
+#include "joint_distance.h"
 
 #include <Eigen/LU>
 
@@ -16,15 +16,27 @@ namespace {
 
 using Judged = std::vector<JudgedLoop*>;
 
+std::vector<double>
+jointDistances(const JudgedGraph& judged, const Judged& loops, int threads)
+{
+  const PoseGraphCovariance poses(judged.graph);
+  std::vector<double> distances(loops.size());
+  const auto count = static_cast<std::ptrdiff_t>(loops.size());
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    const auto place = static_cast<std::size_t>(k);
+    const JudgedLoop& loop = *loops[place];
+    distances[place] =
+        jointDistance(judged.graph, poses, loop, loop.verdict.accepted);
+  }
+  return distances;
+}
+
 /** \return whether a verdict changed */
 bool
 judgeJointly(JudgedGraph& judged, const Judged& loops, bool may_accept, int threads)
 {
-  const JointDistances joint(judged.graph);
-  std::vector<JointDistances::Query> queries;
-  for (const JudgedLoop* loop : loops)
-    queries.push_back({&loop->factor, loop->verdict.accepted});
-  const std::vector<double> distances = joint.squaredDistances(queries, threads);
+  const std::vector<double> distances = jointDistances(judged, loops, threads);
   bool changed = false;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     JudgedLoop& loop = *loops[k];
@@ -95,7 +107,7 @@ growByCertainty(JudgedGraph& judged,
       judged.solve();
     recent = done;
     done = end;
-    batch += batch / 2;
+    batch *= 2;
   }
 }
 

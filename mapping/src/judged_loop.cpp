@@ -30,18 +30,6 @@ judgedLoop(const PoseGraph& graph, FactorId id, double probability)
   return loop;
 }
 
-void
-setIndices(const PoseGraph& graph, std::vector<JudgedLoop>& loops)
-{
-  std::vector<NodeId> names;
-  for (const auto& [id, node] : graph.nodes())
-    names.push_back(id);
-  for (JudgedLoop& loop : loops) {
-    loop.factor.first = static_cast<int>(indexOf(names, loop.measured.from));
-    loop.factor.second = static_cast<int>(indexOf(names, loop.measured.to));
-  }
-}
-
 } // namespace
 
 void
@@ -80,7 +68,6 @@ judgedGraph(const PoseGraph& graph,
     result.loops.push_back(judgedLoop(result.graph, name, probability));
     result.loops.back().verdict.factor = id;
   }
-  setIndices(result.graph, result.loops);
   return result;
 }
 

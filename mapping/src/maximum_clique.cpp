@@ -35,7 +35,7 @@ public:
   {
   }
 
-  Clique
+  MaximumClique
   run()
   {
     Set all(neighbours_.size());
@@ -122,7 +122,7 @@ private:
 
 } // namespace
 
-Clique
+MaximumClique
 maximumClique(const NeighbourSets& neighbours, std::size_t max_steps)
 {
   check(neighbours);

@@ -22,7 +22,7 @@ rejectByPairs(JudgedGraph& judged,
     return true;
   const NeighbourSets consistent =
       consistentPairs(measured, odometry, loops.front()->limit);
-  const Clique clique = maximumClique(consistent, options.max_clique_steps);
+  const MaximumClique clique = maximumClique(consistent, options.max_clique_steps);
   boost::dynamic_bitset<> members(loops.size());
   for (const std::size_t k : clique.vertices)
     members.set(k);

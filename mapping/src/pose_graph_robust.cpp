@@ -69,6 +69,7 @@ private:
     judged_.solve = [this, tolerance] {
       PoseGraphOptions options = options_.solver;
       options.cost = PoseGraphCost::Information;
+      options.method = PoseGraphMethod::Multifrontal;
       options.function_tolerance = std::max(tolerance, options.function_tolerance);
       optimize(judged_.graph, options);
       ++summary_.solutions;

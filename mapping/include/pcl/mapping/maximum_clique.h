@@ -19,7 +19,7 @@ namespace nurbs {
 using NeighbourSets = std::vector<boost::dynamic_bitset<>>;
 
 /** \brief A largest set of vertices that are all neighbours of each other. */
-struct Clique {
+struct MaximumClique {
   std::vector<std::size_t> vertices; /**< rising */
   /** None is larger; false if the search ended before that was known. */
   bool proven = false;
@@ -34,7 +34,7 @@ struct Clique {
  * returned; exponentially many may be needed to prove a clique the largest
  * \throws std::invalid_argument if the sets are not n bits each, not symmetric, or a
  * vertex is its own neighbour */
-PCL_NURBS_MAPPING_EXPORT Clique
+PCL_NURBS_MAPPING_EXPORT MaximumClique
 maximumClique(const NeighbourSets& neighbours, std::size_t max_steps = 100000);
 
 } // namespace nurbs
