@@ -59,7 +59,7 @@ TEST(SimulatedCamera, theProjectorLeavesShadows)
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) { // not every view has an edge
     SimulationOptions options;
     options.town.seed = seed;
-    options.T_body_sensor.linear() << 1, 0, 0, 0, 0, -1, 0, -1, 0; // to the right
+    options.T_body_sensor.linear() << -1, 0, 0, 0, 0, -1, 0, -1, 0; // to the right
     DepthCameraModel camera = DepthCameraModel::kinect();
     camera.least_cosine = 0.0;
     const Scan scan = SimulatedDrive(startOfDrive(5), camera, options).read(2);
