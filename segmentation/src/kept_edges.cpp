@@ -43,8 +43,10 @@ public:
   {
     const auto j = static_cast<std::size_t>(target_[i]);
     const float near = std::min(depth_[i], depth_[j]);
-    const float tolerance = sigmas_ * std::hypot(static_cast<float>(noise_.sigma(near)),
-                                                 directionNoise(i, j));
+    const auto sigma = static_cast<float>(noise_.sigma(near));
+    const float sideways = directionNoise(i, j);
+    const float tolerance =
+        sigmas_ * (sideways == 0.0F ? sigma : std::hypot(sigma, sideways));
     const float spacing = spacing_(near);
     float least = std::numeric_limits<float>::infinity();
     float most = 0.0F;
