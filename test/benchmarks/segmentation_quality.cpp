@@ -4,7 +4,7 @@
 //
 // Segmentations against labelled clouds; writes the tables of
 // doc/segmentation_quality.md:
-//   segmentation_quality DATA_FOLDER OUT.md [METHOD]
+//   segmentation_quality DATA_FOLDER OUT.md [METHOD [SET]]
 
 #include "labelled_scenes.h"
 
@@ -76,7 +76,7 @@ ours(const Group& group)
 }
 
 std::vector<Method>
-allMethods()
+allMethods(SceneScale scale)
 {
   const auto surfaces = [](bool separated) {
     return ours([separated](const GridPoints& points,
@@ -110,7 +110,7 @@ allMethods()
       {"groupSurfaces, parts apart", {{"join_separated off", surfaces(false)}}},
       {"**groupObjects**", {{"defaults", objects}}},
       {"connectedGroups", {{"defaults", connected}}}};
-  for (Method& method : pclMethods())
+  for (Method& method : pclMethods(scale))
     methods.push_back(std::move(method));
   return methods;
 }
@@ -200,29 +200,38 @@ table(const SceneSet& set, const std::vector<Method>& methods)
   return out.str() + "\n";
 }
 
+/** Leave out what a word is not part of the name of. */
+template <typename Named>
+void
+keepNamed(std::vector<Named>& all, const std::string& word)
+{
+  all.erase(std::remove_if(all.begin(),
+                           all.end(),
+                           [&](const Named& one) {
+                             return one.name.find(word) == std::string::npos;
+                           }),
+            all.end());
+}
+
 } // namespace
 
 int
 main(int argc, char** argv)
 {
   if (argc < 3) {
-    std::cerr << "usage: " << argv[0] << " DATA_FOLDER OUT.md [METHOD]\n";
+    std::cerr << "usage: " << argv[0] << " DATA_FOLDER OUT.md [METHOD [SET]]\n";
     return 1;
   }
   try {
-    std::vector<Method> methods = allMethods();
-    if (argc > 3)
-      methods.erase(std::remove_if(methods.begin(),
-                                   methods.end(),
-                                   [&](const Method& method) {
-                                     return method.name.find(argv[3]) ==
-                                            std::string::npos;
-                                   }),
-                    methods.end());
+    std::vector<SceneSet> sets = {
+        simulateRoom(), simulateStreet(), readSynpeb(argv[1]), readOsd(argv[1])};
+    keepNamed(sets, argc > 4 ? argv[4] : "");
     std::string text = kIntroduction;
-    for (const SceneSet& set :
-         {simulateRoom(), simulateStreet(), readSynpeb(argv[1]), readOsd(argv[1])})
+    for (const SceneSet& set : sets) {
+      std::vector<Method> methods = allMethods(set.scale);
+      keepNamed(methods, argc > 3 ? argv[3] : "");
       text += table(set, methods);
+    }
     std::ofstream(argv[2]) << text;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
