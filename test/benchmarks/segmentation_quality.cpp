@@ -53,12 +53,14 @@ a fraction of the time. What it misses are a stack of boxes whose edge it does n
 among facets on the corner, and a side of folded cloth that falls to pieces. On the other
 sets, whose labels are surfaces, it is not meant to be right.
 
-Three labels of SynPEB (17, 18 and 19) are one plane, to 0.7 degrees and 5 mm, in the
+Three labels of SynPEB (17, 18 and 19) are one plane, to 0.05 degrees and 2 mm, in the
 parts that are seen of it. groupSurfaces joins parts of one surface behind an occluder,
 which these labels count as wrong; "parts apart" does not.
 
-On the street, curbs and window panes a few cells high are what is missed most, and
-walls beyond 40 m, where rings are half a metre apart.
+On the street, groupSurfaces finds the roads and 27 of 35 walls; most of what it does not
+find are panels of parked cars (18 of 40), which meet at so gentle folds that it joins
+them, hills of the ground, curbs and window panes a ring or two high, and walls far away
+(36 m in the mean).
 
 )";
 
