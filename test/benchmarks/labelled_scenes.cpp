@@ -76,7 +76,10 @@ streetLabels(const Town& town, const SimulatedScan& scan, std::size_t width)
 SceneSet
 readOsd(const std::filesystem::path& data)
 {
-  SceneSet set{"OSD", "Kinect, 8 table tops, hand labels of whole objects", {}};
+  SceneSet set{"OSD",
+               "Kinect, 8 table tops, hand labels of whole objects",
+               {},
+               SceneScale::Room};
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(data / "osd_labelled"))
     if (entry.path().extension() == ".pcd")
@@ -91,7 +94,8 @@ readOsd(const std::filesystem::path& data)
 SceneSet
 readSynpeb(const std::filesystem::path& data)
 {
-  SceneSet set{"SynPEB", "laser, one room of 39 planes, exact labels", {}};
+  SceneSet set{
+      "SynPEB", "laser, one room of 39 planes, exact labels", {}, SceneScale::Room};
   set.scenes.push_back(readScene<PointXYZI>(
       (data / "synpeb_room" / "test_500.pcd").string(), [](const PointXYZI& p) {
         return static_cast<std::uint32_t>(std::lround(p.intensity));
@@ -105,7 +109,8 @@ simulateRoom()
   SceneSet set{"Simulated room",
                "Kinect noise, planes, wavy wall, column, dome, arch and box; exact "
                "labels of surfaces",
-               {}};
+               {},
+               SceneScale::Room};
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     DemoSceneOptions options;
     options.seed = seed;
@@ -122,7 +127,8 @@ simulateStreet()
                "HDL-64E, 2 cm noise, two scans of a town; exact labels of its "
                "surfaces (road, sidewalks, curbs, facades, windows, doors, roofs, "
                "columns, cars), without leaves",
-               {}};
+               {},
+               SceneScale::Street};
   SimulationOptions options;
   options.town.movers = false;
   options.threads = 2;

@@ -24,6 +24,7 @@ struct SceneSet {
   std::string name;
   std::string about;
   std::vector<LabelledScene> scenes;
+  SceneScale scale = SceneScale::Room;
 };
 
 /** Table tops of the Object Segmentation Database in a folder of data sets. */
