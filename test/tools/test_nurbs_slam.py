@@ -3,13 +3,11 @@
 # Copyright (c) 2026, the PCL-NURBS authors
 """What nurbs_slam promises: data sets, files, report, settings, exit codes."""
 import json
-import os
-import shutil
 import struct
 import unittest
 
-from drives import camera_pose, read_kitti, scan, write_kitti
-from tool import ToolTest, depth_rows, kitti, pcd, png
+from drives import read_kitti, scan, write_kitti
+from tool import ToolTest, depth_rows, pcd, png
 
 FILES = ["pose_graph.g2o", "report.json", "trajectory.png", "trajectory_kitti.txt",
          "trajectory_tum.txt", "truth_kitti.txt", "truth_tum.txt"]
