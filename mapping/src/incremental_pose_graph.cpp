@@ -22,6 +22,9 @@ public:
   placeNodes(const Measurement& measurement)
   {
     if (const auto* between = std::get_if<BetweenFactor>(&measurement)) {
+      if (!graph.node(between->from).has_estimate &&
+          !graph.node(between->to).has_estimate)
+        graph.setPose(between->from, Eigen::Isometry3d::Identity());
       placeNode(between->from, between->to, between->T_from_to.inverse());
       placeNode(between->to, between->from, between->T_from_to);
       return;
@@ -61,8 +64,6 @@ private:
   {
     if (graph.node(id).has_estimate)
       return;
-    if (!graph.node(other).has_estimate)
-      graph.setPose(other, Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d T_world_other = equations.has(other)
                                                 ? toIsometry(equations.pose(other))
                                                 : graph.node(other).T_world_node;
