@@ -32,16 +32,17 @@ jointDistances(const JudgedGraph& judged, const Judged& loops, int threads)
   return distances;
 }
 
-/** \return whether a verdict changed */
+/** \param[in] share of the limit within which a loop is accepted that was not
+ * \return whether a verdict changed */
 bool
-judgeJointly(JudgedGraph& judged, const Judged& loops, bool may_accept, int threads)
+judgeJointly(JudgedGraph& judged, const Judged& loops, double share, int threads)
 {
   const std::vector<double> distances = jointDistances(judged, loops, threads);
   bool changed = false;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     JudgedLoop& loop = *loops[k];
     const bool before = loop.verdict.accepted;
-    const bool after = distances[k] <= loop.limit && (before || may_accept);
+    const bool after = distances[k] <= (before ? 1.0 : share) * loop.limit;
     if (before || after)
       judged.judge(loop, LoopCheck::JointDistance, distances[k], loop.limit, after);
     changed = changed || before != after;
@@ -103,7 +104,10 @@ growByCertainty(JudgedGraph& judged,
     const std::size_t end = std::min(queue.size(), done + batch);
     const Judged next(queue.begin() + static_cast<std::ptrdiff_t>(recent),
                       queue.begin() + static_cast<std::ptrdiff_t>(end));
-    if (judgeJointly(judged, next, true, options.solver.threads))
+    // Most true loops agree well; of false ones, that lie anywhere, far fewer than
+    // within the limit. The others have their chance in the end.
+    constexpr double kAgreesWell = 0.3;
+    if (judgeJointly(judged, next, kAgreesWell, options.solver.threads))
       judged.solve();
     recent = done;
     done = end;
@@ -119,8 +123,8 @@ checkJointly(JudgedGraph& judged, const RobustOptions& options)
     all.push_back(&loop);
   for (int round = 0; round < options.max_joint_rounds; ++round) {
     // In the second half only rejections, so that it ends.
-    const bool may_accept = 2 * round < options.max_joint_rounds;
-    if (!judgeJointly(judged, all, may_accept, options.solver.threads))
+    const double share = 2 * round < options.max_joint_rounds ? 1.0 : -1.0;
+    if (!judgeJointly(judged, all, share, options.solver.threads))
       return;
     judged.solve();
   }

@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kSmallestScale = 1e-4;
 
-/** The shorter half of the loops, by the odometry between their ends. */
+/** Loops whose ends odometry joins, the shorter way first. */
 std::vector<MeasuredLoop>
-shorterHalf(const PoseGraph& graph, const std::set<FactorId>& names)
+loopsByLength(const PoseGraph& graph, const std::set<FactorId>& names)
 {
   const OdometryUncertainty odometry(graph, names);
   std::vector<std::pair<std::size_t, FactorId>> lengths;
@@ -31,11 +31,18 @@ shorterHalf(const PoseGraph& graph, const std::set<FactorId>& names)
       lengths.emplace_back(std::max(from, to) - std::min(from, to), id);
   }
   std::sort(lengths.begin(), lengths.end());
-  lengths.resize((lengths.size() + 1) / 2);
   std::vector<MeasuredLoop> loops;
   for (const auto& [length, id] : lengths)
     loops.push_back(measuredLoop(graph, id));
   return loops;
+}
+
+double
+lowerQuartile(std::vector<double> values)
+{
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
 }
 
 /** d^2 of the rotation or the translation alone, in units of its lower quartile. */
@@ -53,14 +60,14 @@ relativeDistance(const CycleError& cycle, bool planar, bool rotation)
 class ScaleSearch {
 public:
   ScaleSearch(const PoseGraph& graph, const std::set<FactorId>& names)
-      : graph_(graph), names_(names), loops_(shorterHalf(graph, names))
+      : graph_(graph), names_(names), loops_(loopsByLength(graph, names))
   {
   }
 
   bool
   hasEnough() const
   {
-    constexpr std::size_t kFewest = 10;
+    constexpr std::size_t kFewest = 20;
     return loops_.size() >= kFewest;
   }
 
@@ -69,10 +76,7 @@ public:
   {
     NoiseScale scale;
     scale.rotation = std::clamp(std::sqrt(quartile(scale, true)), kSmallestScale, 1.0);
-    scale.translation = kSmallestScale;
-    if (quartile(scale, false) <= 1.0)
-      return scale;
-    double low = std::log(kSmallestScale);
+    double low = std::log(scale.rotation);
     double high = 0.0;
     for (int k = 0; k < 20; ++k) {
       const double middle = 0.5 * (low + high);
@@ -94,10 +98,9 @@ private:
       distances.push_back(
           relativeDistance(*cycleError(loop, odometry), loop.planar, rotation));
     }
-    const auto place =
-        distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 4);
-    std::nth_element(distances.begin(), place, distances.end());
-    return *place;
+    const double all = lowerQuartile(distances);
+    distances.resize(distances.size() / 2);
+    return std::min(all, lowerQuartile(std::move(distances)));
   }
 
   const PoseGraph& graph_;

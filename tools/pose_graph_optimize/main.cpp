@@ -4,6 +4,7 @@
 #include "graph_plot.h"
 #include "incremental_run.h"
 #include "progress_bar.h"
+#include "robust_run.h"
 #include "run_tool.h"
 #include "settings.h"
 
@@ -41,6 +42,7 @@ struct Outcome {
   OptimalityCertificate certificate;
   bool from_chordal = false;
   std::optional<IncrementalRun> incremental;
+  nlohmann::json robust;
   double read_seconds = 0.0;
   double solve_seconds = 0.0;
 };
@@ -106,6 +108,13 @@ solve(const GraphSettings& settings, const PoseGraph& graph)
     outcome.summary = outcome.incremental->all;
     outcome.certificate = certify(outcome.after, settings.solver.cost);
   }
+  else if (settings.robust) {
+    RobustRun run = runRobustly(outcome.before, *settings.robust, settings.solver);
+    outcome.after = run.graph;
+    outcome.summary = run.summary;
+    outcome.robust = run.report;
+    outcome.certificate = certify(outcome.after, settings.solver.cost);
+  }
   else
     optimizeAtOnce(settings, outcome);
   throwIfInterrupted();
@@ -163,11 +172,14 @@ reportOf(const GraphSettings& settings, const G2oGraph& input, const Outcome& ou
         {"cost", settings.cost_word},
         {"method", settings.method_word},
         {"incremental", settings.incremental},
+        {"robust", settings.robust_word},
         {"iterations", settings.solver.max_iterations},
         {"tolerance", settings.solver.function_tolerance},
         {"seed", settings.seed}}}};
   if (outcome.incremental)
     report["incremental"] = timesOf(*outcome.incremental);
+  if (settings.robust)
+    report["robust"] = outcome.robust;
   return report;
 }
 
@@ -196,6 +208,8 @@ print(const nlohmann::json& report, const Outcome& outcome)
                 outcome.certificate.lower_bound);
   else
     std::printf("no certificate: %s\n", outcome.certificate.reason.c_str());
+  if (!outcome.robust.is_null())
+    printRobust(outcome.robust);
   if (outcome.incremental)
     std::printf(
         "update: %.3f ms mean, %.3f ms p99, %.3f ms max; %.1f poses eliminated\n",

@@ -58,6 +58,11 @@ describe(GraphSettings& settings, po::options_description& description)
       "method",
       po::value(&settings.method_word)->default_value("ceres"),
       "who solves: ceres or multifrontal (our own Cholesky, faster)")(
+      "robust",
+      po::value(&settings.robust_word)->default_value("none"),
+      "find edges between vertices that do not follow each other (loops) that are "
+      "false, and leave them out of OUT.g2o: consensus (best), gnc, switchable, pcm, "
+      "none; the others are trusted and must hold the graph together")(
       "iterations",
       po::value(&settings.solver.max_iterations)->default_value(200),
       "no more steps than this")(
@@ -104,6 +109,16 @@ interpret(GraphSettings& settings, const std::vector<std::string>& files)
                                settings.method_word,
                                {{"ceres", PoseGraphMethod::Ceres},
                                 {"multifrontal", PoseGraphMethod::Multifrontal}});
+  settings.robust = valueOf<std::optional<RobustMethod>>(
+      "--robust",
+      settings.robust_word,
+      {{"none", std::nullopt},
+       {"consensus", RobustMethod::Consensus},
+       {"gnc", RobustMethod::GraduatedNonConvexity},
+       {"switchable", RobustMethod::Switchable},
+       {"pcm", RobustMethod::PairwiseConsistency}});
+  if (settings.robust && settings.incremental)
+    throw ToolError(kUsage, "--robust and --incremental exclude each other");
   settings.solver.threads = resolveThreads(settings.common.threads);
   settings.solver.interrupted = interrupted;
   try {

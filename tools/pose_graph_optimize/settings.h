@@ -5,7 +5,7 @@
 
 #include "common_options.h"
 
-#include <pcl/mapping/pose_graph_solver.h>
+#include <pcl/mapping/pose_graph_robust.h>
 
 #include <optional>
 #include <string>
@@ -26,12 +26,15 @@ struct GraphSettings {
   std::string init_word;
   std::string cost_word;
   std::string method_word;
+  std::string robust_word;
   StartKind start = StartKind::File;
   unsigned seed = 1;
   bool local = false;
   bool incremental = false;
   bool strict = false;
   pcl::nurbs::PoseGraphOptions solver;
+  /** How false loops are found, if they are to be. */
+  std::optional<pcl::nurbs::RobustMethod> robust;
 };
 
 /** Parse the command line.
