@@ -4,6 +4,7 @@
 // Superpixels of a 640 x 480 Kinect cloud (public data sets, office1) beside the
 // segmenters of PCL, and of synthetic clouds from 10^4 to 10^7 points.
 
+#include "chessboard.h"
 #include "test_data.h"
 
 #include <pcl/features/integral_image_normal.h>
@@ -18,8 +19,6 @@
 #include <benchmark/benchmark.h>
 
 #include <sys/resource.h>
-
-#include <random>
 
 namespace {
 
@@ -53,32 +52,6 @@ gridOf(const Cloud& cloud)
       cloud,
       estimateGridGeometry(
           points, static_cast<int>(cloud.width), static_cast<int>(cloud.height), 1));
-}
-
-/** Noisy steps of a chessboard, 2 and 2.2 m away. */
-GridPoints
-chessboard(std::int64_t count)
-{
-  const auto width =
-      static_cast<int>(std::sqrt(static_cast<double>(count) * 4.0 / 3.0));
-  const int height = static_cast<int>(count / width);
-  GridPoints points;
-  points.geometry = GridGeometry::pinhole(
-      width, height, {0.8 * width, 0.8 * width, 0.5 * width, 0.5 * height});
-  std::mt19937 random(1);
-  std::normal_distribution<double> noise(0.0, 0.6 / width);
-  for (int row = 0; row < height; ++row)
-    for (int column = 0; column < width; ++column) {
-      const int field = column * 8 / width + row * 8 / width;
-      const double z = 2.0 + 0.2 * (field % 2) + noise(random);
-      const double u = points.geometry.first_u + column * points.geometry.step_u;
-      const double v = points.geometry.first_v + row * points.geometry.step_v;
-      points.x.push_back(static_cast<float>(u * z));
-      points.y.push_back(static_cast<float>(v * z));
-      points.z.push_back(static_cast<float>(z));
-    }
-  completeGridPoints(points);
-  return points;
 }
 
 /** Graph, weights and superpixels of points, as the class makes them. */
@@ -130,7 +103,7 @@ officeSegment(State& state, int connectivity)
 void
 scaling(State& state, int connectivity)
 {
-  const GridPoints points = chessboard(state.range(0));
+  const GridPoints points = bench::chessboard(static_cast<std::size_t>(state.range(0)));
   const SensorNoise noise{0.6 / points.geometry.width, 0.0, 0.0};
   const std::size_t number = points.size() / 300 + 1;
   GridGraph graph;
