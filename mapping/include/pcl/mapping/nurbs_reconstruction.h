@@ -68,8 +68,7 @@ public:
     noise_ = noise;
   }
 
-  /** \brief Segmentation to use; EntropyRateSegmentation if none is given, with
-   * segments as small as the smallest patch. */
+  /** \brief Segmentation to use; EntropyRateSegmentation if none is given. */
   void
   setSegmentation(const typename Segmentation::Ptr& segmentation)
   {
