@@ -63,13 +63,13 @@ writePicture(const std::string& path, const Outcome& outcome)
   std::vector<std::pair<std::string, Trajectory>> paths;
   if (compared)
     paths.emplace_back("truth", outcome.compared.pair.reference);
-  paths.emplace_back("estimate",
-                     compared ? outcome.compared.pair.estimate : outcome.estimate);
   if (!outcome.estimate.back().T_world_body.isApprox(
           outcome.odometry.back().T_world_body))
     paths.emplace_back("odometry alone",
                        compared ? outcome.compared_odometry.pair.estimate
                                 : outcome.odometry);
+  paths.emplace_back("estimate",
+                     compared ? outcome.compared.pair.estimate : outcome.estimate);
   writePlot(path, pathPlot(paths));
 }
 
