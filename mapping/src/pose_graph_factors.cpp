@@ -89,6 +89,21 @@ struct FlawFinder {
   }
 };
 
+struct NodeLister {
+  std::vector<NodeId>
+  operator()(const BetweenFactor& factor) const
+  {
+    return {factor.from, factor.to};
+  }
+
+  template <typename Factor>
+  std::vector<NodeId>
+  operator()(const Factor& factor) const
+  {
+    return {factor.node};
+  }
+};
+
 struct ModelMaker {
   ErrorModel
   operator()(const BetweenFactor& factor) const
@@ -139,16 +154,7 @@ flawOf(const Measurement& measurement)
 std::vector<NodeId>
 nodesOf(const Measurement& measurement)
 {
-  if (const auto* between = std::get_if<BetweenFactor>(&measurement))
-    return {between->from, between->to};
-  return {std::visit(
-      [](const auto& factor) -> NodeId {
-        if constexpr (std::is_same_v<std::decay_t<decltype(factor)>, BetweenFactor>)
-          return factor.from;
-        else
-          return factor.node;
-      },
-      measurement)};
+  return std::visit(NodeLister(), measurement);
 }
 
 FactorLinearization

@@ -187,7 +187,8 @@ writeBack(const PoseGraphProblem& problem, PoseGraph& graph)
     if (problem.held[k] != 0)
       continue;
     const SolverPose before = toSolverPose(graph.node(problem.names[k]).T_world_node);
-    if (before.translation != problem.poses[k].translation || // else not one bit changes
+    if (before.translation !=
+            problem.poses[k].translation || // else not one bit changes
         before.rotation.coeffs() != problem.poses[k].rotation.coeffs())
       graph.setPose(problem.names[k], toIsometry(problem.poses[k]));
   }

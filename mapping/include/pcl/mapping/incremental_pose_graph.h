@@ -106,7 +106,7 @@ public:
   /** \brief optimize() the whole graph from the present estimates, and go on from
    * there. */
   PoseGraphSummary
-  optimizeAll(const PoseGraphOptions& options);
+  optimizeAll(const PoseGraphOptions& options = {});
 
   /** \brief The estimate of the last update(), O(log n). \throws std::out_of_range */
   Eigen::Isometry3d
