@@ -4,7 +4,7 @@
 # To be sourced by bash from the top of the source tree.
 
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libpcl-dev libceres-dev libzstd-dev
-  nlohmann-json3-dev libpng-dev libcairo2-dev libboost-program-options-dev
+  nlohmann-json3-dev libpng-dev libcairo2-dev libyaml-cpp-dev libboost-program-options-dev
   libboost-iostreams-dev libsuitesparse-dev)
 TEST_PACKAGES=(libgtest-dev libsisl-dev python3)
 

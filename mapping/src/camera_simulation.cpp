@@ -11,7 +11,7 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
-/** Measures the pixels of an image, each for itself. */
+/** Measures the rows of an image, each for itself. */
 class CameraImage {
 public:
   CameraImage(const SensorView& view,
@@ -30,30 +30,44 @@ public:
   void
   measureRow(int row)
   {
-    for (int column = 0; column < camera_.width; ++column)
-      measure(column, row);
+    std::vector<Eigen::Vector3d> directions;
+    std::vector<BeamHit> hits;
+    for (int column = 0; column < camera_.width; ++column) {
+      const Eigen::Vector3d pixel = pixelRay(column, row);
+      const double stretch = pixel.norm();
+      directions.emplace_back(pose_.linear() * (pixel / stretch));
+      hits.push_back({camera_.max_depth * stretch, BeamHit::kNothing});
+    }
+    town_.castFan(pose_.translation(), directions, 0.0, hits);
+    const std::vector<bool> shadows = shadowsOf(directions, hits);
+    for (int column = 0; column < camera_.width; ++column) {
+      const auto k = static_cast<std::size_t>(column);
+      if (hits[k].surface != BeamHit::kNothing && !shadows[k])
+        measure(column, row, {pose_.translation(), directions[k]}, hits[k]);
+    }
   }
 
 private:
-  void
-  measure(int column, int row)
+  /** Through a pixel, of depth 1. */
+  Eigen::Vector3d
+  pixelRay(int column, int row) const
   {
     const PinholeIntrinsics& lens = camera_.intrinsics;
-    const Eigen::Vector3d pixel(
-        (column - lens.cx) / lens.fx, (row - lens.cy) / lens.fy, 1.0);
-    const double stretch = pixel.norm();
-    const Beam ray{pose_.translation(), pose_.linear() * (pixel / stretch)};
-    const BeamHit hit =
-        town_.cast(ray, camera_.min_depth * stretch, camera_.max_depth * stretch);
+    return {(column - lens.cx) / lens.fx, (row - lens.cy) / lens.fy, 1.0};
+  }
+
+  void
+  measure(int column, int row, const Beam& ray, const BeamHit& hit)
+  {
+    const Eigen::Vector3d pixel = pixelRay(column, row);
     const auto i =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(camera_.width) +
         static_cast<std::size_t>(column);
-    if (hit.surface == BeamHit::kNothing)
+    double depth = hit.distance / pixel.norm();
+    if (depth < camera_.min_depth)
       return;
-    double depth = hit.distance / stretch;
     if (view_.options.noise) {
-      if (town_.cosine(ray, hit) < camera_.least_cosine ||
-          isInShadow(ray.at(hit.distance)))
+      if (town_.cosine(ray, hit) < camera_.least_cosine)
         return;
       depth = noisyDepth(depth, i);
     }
@@ -64,16 +78,28 @@ private:
     result_.true_points[i] = ray.at(hit.distance);
   }
 
-  /** Whether something stands between a point and the projector. */
-  bool
-  isInShadow(const Eigen::Vector3d& point) const
+  /** Where something stands between what a row shows and the projector. */
+  std::vector<bool>
+  shadowsOf(const std::vector<Eigen::Vector3d>& directions,
+            const std::vector<BeamHit>& hits) const
   {
     constexpr double kOffSurface = 1e-3;
-    const Eigen::Vector3d way = point - projector_;
-    const double distance = way.norm();
-    const BeamHit hit =
-        town_.cast({projector_, way / distance}, 0.0, distance - kOffSurface);
-    return hit.surface != BeamHit::kNothing;
+    std::vector<bool> result(hits.size(), false);
+    if (!view_.options.noise)
+      return result;
+    std::vector<Eigen::Vector3d> light;
+    std::vector<BeamHit> blocked;
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+      const Eigen::Vector3d way =
+          pose_.translation() + hits[k].distance * directions[k] - projector_;
+      const double distance = way.norm();
+      light.emplace_back(way / distance);
+      blocked.push_back({distance - kOffSurface, BeamHit::kNothing});
+    }
+    town_.castFan(projector_, light, 0.0, blocked);
+    for (std::size_t k = 0; k < hits.size(); ++k)
+      result[k] = blocked[k].surface != BeamHit::kNothing;
+    return result;
   }
 
   double

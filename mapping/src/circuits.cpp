@@ -90,37 +90,65 @@ poseAt(const Samples& samples, double length)
   return pose;
 }
 
+/** Number of poses that laps of a length take. */
+int
+numPoses(const CircuitOptions& options, double lap)
+{
+  constexpr double kMostPoses = 1e6;
+  const double count = options.laps * lap / (options.speed * options.period);
+  if (!(count < kMostPoses))
+    throw std::invalid_argument("makeCircuit: more than a million poses");
+  return static_cast<int>(count) + 1;
+}
+
+Trajectory
+straightDrive(const CircuitOptions& options)
+{
+  const bool moves = options.shape == CircuitShape::Line;
+  Trajectory result(static_cast<std::size_t>(numPoses(options, options.size)));
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    result[k].stamp = static_cast<double>(k) * options.period;
+    const double way = moves ? options.speed * result[k].stamp : 0.0;
+    result[k].T_world_body.translation() = Vector3d(way, 0.0, options.height);
+  }
+  return result;
+}
+
+Trajectory
+closedDrive(const CircuitOptions& options)
+{
+  const Samples samples(options);
+  const double step = options.speed * options.period;
+  const Eigen::Isometry3d start = poseAt(samples, 0.0);
+  const Eigen::AngleAxisd level(-std::atan2(start.linear()(1, 0), start.linear()(0, 0)),
+                                Vector3d::UnitZ());
+  Trajectory result(
+      static_cast<std::size_t>(numPoses(options, samples.lengths.back())));
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    StampedPose& pose = result[k];
+    pose.stamp = static_cast<double>(k) * options.period;
+    pose.T_world_body = poseAt(samples, static_cast<double>(k) * step);
+    pose.T_world_body.translation() -= start.translation();
+    pose.T_world_body = level * pose.T_world_body;
+    pose.T_world_body.translation().z() += options.height;
+  }
+  return result;
+}
+
 } // namespace
 
 Trajectory
 makeCircuit(const CircuitOptions& options)
 {
-  constexpr double kMostPoses = 1e6;
   const bool sensible = options.size >= 60.0 && options.size <= 1e5 &&
                         options.speed > 0.0 && options.period > 0.0 &&
                         options.height > 0.0 && options.laps > 0.0 &&
                         std::isfinite(options.height);
   if (!sensible)
     throw std::invalid_argument("makeCircuit: size, speed, period, height or laps");
-  const Samples samples(options);
-  const double step = options.speed * options.period;
-  const double count = options.laps * samples.lengths.back() / step;
-  if (!(count < kMostPoses))
-    throw std::invalid_argument("makeCircuit: more than a million poses");
-  const Eigen::Isometry3d start = poseAt(samples, 0.0);
-  const Eigen::AngleAxisd level(-std::atan2(start.linear()(1, 0), start.linear()(0, 0)),
-                                Vector3d::UnitZ());
-  Trajectory result;
-  for (int k = 0; k <= static_cast<int>(count); ++k) {
-    StampedPose pose;
-    pose.stamp = k * options.period;
-    pose.T_world_body = poseAt(samples, k * step);
-    pose.T_world_body.translation() -= start.translation();
-    pose.T_world_body = level * pose.T_world_body;
-    pose.T_world_body.translation().z() += options.height;
-    result.push_back(pose);
-  }
-  return result;
+  const bool closed =
+      options.shape != CircuitShape::Line && options.shape != CircuitShape::Standstill;
+  return closed ? closedDrive(options) : straightDrive(options);
 }
 
 } // namespace nurbs

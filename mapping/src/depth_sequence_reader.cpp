@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 
-#include "pose_interpolation.h"
-#include "scan_files.h"
+#include "depth_layouts.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pcl {
 namespace nurbs {
@@ -13,17 +11,28 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr double kTumScale = 5000.0;
-constexpr double kFarthestPose = 0.1; // seconds
+constexpr const char* kDepthEnding = ".depth.png";
 
-/** Stamps and files of depth.txt, or of the second half of associations.txt. */
-void
-listImages(ScanFiles& files, const path& folder)
+bool
+endsWith(const std::string& text, const std::string& ending)
 {
-  std::error_code error;
-  const bool listed = std::filesystem::exists(folder / "depth.txt", error);
-  const path list = folder / (listed ? "depth.txt" : "associations.txt");
-  const std::size_t columns = listed ? 2 : 4;
+  return text.size() >= ending.size() &&
+         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+/** A line of "stamp file" or "stamp file stamp file": where the depth image is told. */
+std::size_t
+depthColumn(const std::vector<std::string>& words)
+{
+  const auto isDepth = [&](std::size_t k) {
+    return words[k].find("depth") != std::string::npos;
+  };
+  return words.size() == 4 && !(isDepth(1) && !isDepth(3)) ? 3 : 1;
+}
+
+void
+listByFile(ScanFiles& files, const path& folder, const path& list, std::size_t columns)
+{
   for (const std::vector<std::string>& words : wordsOf(list)) {
     if (words.size() != columns) {
       files.faults.report(list,
@@ -32,74 +41,104 @@ listImages(ScanFiles& files, const path& folder)
                               std::to_string(columns));
       continue;
     }
+    const std::size_t column = depthColumn(words);
     ScanFile scan;
-    scan.cloud = folder / words[columns - 1];
+    scan.cloud = folder / words[column];
     scan.line = files.scans.size();
-    if (files.faults.attempt([&] { scan.stamp = numberOf(list, words[columns - 2]); }))
+    if (files.faults.attempt([&] { scan.stamp = numberOf(list, words[column - 1]); }))
       files.scans.push_back(scan);
   }
 }
 
-std::optional<PinholeIntrinsics>
-readIntrinsics(const path& folder)
+/** The images of a folder that has no list: those of Microsoft's names or, in depth/,
+ * all. */
+std::vector<path>
+imagesByName(const path& folder)
 {
   std::error_code error;
-  for (const char* name : {"intrinsics.txt", "camera-intrinsics.txt"}) {
-    const path file = folder / name;
-    if (!std::filesystem::exists(file, error))
+  for (const path& place : {folder / "depth", folder / "frames", folder}) {
+    if (!std::filesystem::is_directory(place, error))
       continue;
-    std::vector<double> n;
-    for (const std::vector<std::string>& words : wordsOf(file))
-      for (const std::string& word : words)
-        n.push_back(numberOf(file, word));
-    if (n.size() == 9)
-      n = {n[0], n[4], n[2], n[5]};
-    if (n.size() != 4 || n[0] == 0.0 || n[1] == 0.0)
-      throw InputError(file.string(), "holds neither fx fy cx cy nor a camera matrix");
-    return PinholeIntrinsics{n[0], n[1], n[2], n[3]};
+    std::vector<path> images = filesIn(place, {".png"});
+    if (place != folder / "depth")
+      images.erase(std::remove_if(images.begin(),
+                                  images.end(),
+                                  [](const path& image) {
+                                    return !endsWith(image.string(), kDepthEnding);
+                                  }),
+                   images.end());
+    if (!images.empty())
+      return images;
   }
-  return std::nullopt;
+  return {};
 }
 
-/** The pose at a time between two that are near; nothing otherwise. */
-std::optional<StampedPose>
-poseAt(const Trajectory& poses, double time)
+/** By length of the name and then by name, so that 2.png comes before 10.png. */
+bool
+numberedBefore(const path& a, const path& b)
 {
-  const auto after = std::lower_bound(
-      poses.begin(), poses.end(), time, [](const StampedPose& pose, double t) {
-        return pose.stamp < t;
-      });
-  if (after != poses.end() && after->stamp == time)
-    return *after;
-  if (after == poses.begin() || after == poses.end())
-    return std::nullopt;
-  const StampedPose& before = *(after - 1);
-  if (after->stamp - time > kFarthestPose || time - before.stamp > kFarthestPose)
-    return std::nullopt;
-  return StampedPose{time, interpolatePose(before, *after, time)};
-}
-
-/** Poses at the stamps of the scans; scans without one are faults. */
-void
-addTruth(ScanFiles& files, const path& file)
-{
-  const Trajectory poses = readTrajectory(file.string());
-  Trajectory truth;
-  std::vector<ScanFile> kept;
-  for (const ScanFile& scan : files.scans) {
-    const auto pose = poseAt(poses, scan.stamp);
-    if (!pose) {
-      files.faults.report(file, "has no pose for " + scan.cloud.filename().string());
-      continue;
-    }
-    kept.push_back(scan);
-    truth.push_back(*pose);
-  }
-  files.scans = std::move(kept);
-  files.truth = std::move(truth);
+  const std::string first = a.filename().string();
+  const std::string second = b.filename().string();
+  return first.size() != second.size() ? first.size() < second.size() : first < second;
 }
 
 } // namespace
+
+path
+poseFileOf(const path& image)
+{
+  const std::string name = image.string();
+  if (!endsWith(name, kDepthEnding))
+    return {};
+  return name.substr(0, name.size() - std::string(kDepthEnding).size()) + ".pose.txt";
+}
+
+void
+listImages(ScanFiles& files, const path& folder)
+{
+  std::error_code error;
+  const path list = folder / "depth.txt";
+  const path associations = folder / "associations.txt";
+  if (std::filesystem::exists(list, error))
+    return listByFile(files, folder, list, 2);
+  if (std::filesystem::exists(associations, error))
+    return listByFile(files, folder, associations, 4);
+  std::vector<path> images = imagesByName(folder);
+  if (images.empty())
+    throw InputError(folder.string(),
+                     "holds no depth images (depth.txt, associations.txt, depth/*.png, "
+                     "*.depth.png)");
+  std::sort(images.begin(), images.end(), numberedBefore);
+  for (const path& image : images) {
+    ScanFile scan;
+    scan.cloud = image;
+    scan.line = files.scans.size();
+    scan.stamp = static_cast<double>(scan.line) * files.options.period;
+    files.scans.push_back(scan);
+  }
+}
+
+double
+depthScaleOf(const ScanFiles& files, const path& folder)
+{
+  constexpr double kTumScale = 5000.0;
+  constexpr double kMillimetres = 1000.0;
+  std::error_code error;
+  const bool microsoft = !files.scans.empty() &&
+                         endsWith(files.scans.front().cloud.string(), kDepthEnding);
+  const bool redwood = std::filesystem::exists(folder / "trajectory.log", error);
+  return microsoft || redwood ? kMillimetres : kTumScale;
+}
+
+bool
+isDepthFolder(const std::string& folder)
+{
+  std::error_code error;
+  const path place = folder;
+  return std::filesystem::exists(place / "depth.txt", error) ||
+         std::filesystem::exists(place / "associations.txt", error) ||
+         !imagesByName(place).empty();
+}
 
 std::unique_ptr<ScanSource>
 openDepthSequence(const std::string& folder, const ScanReadOptions& options)
@@ -110,12 +149,15 @@ openDepthSequence(const std::string& folder, const ScanReadOptions& options)
   if (!options.cloud.intrinsics)
     files.options.cloud.intrinsics = readIntrinsics(folder);
   if (options.cloud.depth_scale == 0.0)
-    files.options.cloud.depth_scale = kTumScale;
-  const path poses = options.poses_path.empty() ? path(folder) / "groundtruth.txt"
-                                                : path(options.poses_path);
-  std::error_code error;
-  if (!options.poses_path.empty() || std::filesystem::exists(poses, error))
-    files.faults.attempt([&] { addTruth(files, poses); });
+    files.options.cloud.depth_scale = depthScaleOf(files, folder);
+  if (!options.times_path.empty())
+    files.setStamps(readTimes(options.times_path), options.times_path);
+  files.faults.attempt([&] {
+    if (options.poses_path.empty())
+      addDepthTruthOfLayout(files, folder);
+    else
+      addDepthTruth(files, options.poses_path);
+  });
   return files.open();
 }
 

@@ -52,7 +52,7 @@ public:
     const char* const last = word.data() + word.size();
     const auto [end, error] = std::from_chars(word.data(), last, value);
     if (error != std::errc() || end != last)
-      file_.fail(name + " \"" + word.substr(0, 20) + "\" is not a count");
+      file_.fail(name + ' ' + quotedWord(word) + " is not a count");
     return value;
   }
 

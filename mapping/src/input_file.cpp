@@ -37,5 +37,16 @@ loadInputFile(const std::string& path, std::size_t max_size)
   return file;
 }
 
+std::string
+quotedWord(std::string_view word)
+{
+  constexpr std::size_t kMost = 20;
+  std::string text(word.substr(0, kMost));
+  for (char& letter : text)
+    if (letter < ' ' || letter > '~')
+      letter = '?';
+  return '"' + text + '"';
+}
+
 } // namespace nurbs
 } // namespace pcl

@@ -28,5 +28,10 @@ struct InputFile {
 InputFile
 loadInputFile(const std::string& path, std::size_t max_size);
 
+/** The beginning of a word of a file in quotes, for messages: bytes that are no
+ * printable characters become '?'. */
+std::string
+quotedWord(std::string_view word);
+
 } // namespace nurbs
 } // namespace pcl

@@ -5,23 +5,30 @@
 
 #include "sensor_simulation.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pcl {
 namespace nurbs {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
-
-std::vector<double>
-evenElevations(double top, double step, int count)
+/** In the sensor's frame. */
+Eigen::Vector3d
+beamDirection(const LaserModel& laser, int column, double elevation)
 {
-  std::vector<double> result;
-  result.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k)
-    result.push_back((top - k * step) * kDegree);
-  return result;
+  const double azimuth = 2.0 * M_PI * ((column + 0.5) / laser.columns - 0.5);
+  const double level = std::cos(elevation);
+  return {level * std::cos(azimuth), -level * std::sin(azimuth), std::sin(elevation)};
+}
+
+/** Whether a beam from the origin meets a box. */
+bool
+meets(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& beam)
+{
+  const Eigen::Array3d one = box.min().array() / beam.array();
+  const Eigen::Array3d other = box.max().array() / beam.array();
+  const double in = one.min(other).maxCoeff();
+  return in > 0.0 && in <= one.max(other).minCoeff();
 }
 
 /** One beam's reading. */
@@ -47,15 +54,31 @@ isSeen(const LaserModel& laser,
   return random.chance(seen);
 }
 
+/** Errors that a beam has in all scans. */
+struct BeamErrors {
+  double offset = 0.0;
+  double gain = 1.0;
+
+  BeamErrors(const LaserModel& laser, std::uint64_t seed, std::size_t row)
+  {
+    constexpr std::uint64_t kStream = 0xCA11B; // no scan has that number
+    CounterRandom random(seed, kStream, row);
+    offset = laser.beam_offset * random.normal();
+    gain = std::max(0.2, 1.0 + laser.beam_gain * random.normal());
+  }
+};
+
 Reading
 noisyReading(const LaserModel& laser,
-             double range,
-             double intensity,
+             const BeamErrors& beam,
+             Reading reading,
              CounterRandom& random)
 {
-  const double measured = range + laser.range_noise * random.normal();
-  const double light = intensity + laser.intensity_noise * random.normal();
-  return {measured, std::min(1.0, std::max(0.0, light))};
+  const double range =
+      reading.range + beam.offset + laser.range_noise * random.normal();
+  const double light =
+      beam.gain * reading.intensity + laser.intensity_noise * random.normal();
+  return {range, std::min(1.0, std::max(0.0, light))};
 }
 
 /** Measures the columns of a scan, each for itself. */
@@ -64,6 +87,8 @@ public:
   LaserScan(const SensorView& view, const LaserModel& laser, SimulatedScan& result)
       : view_(view), laser_(laser), result_(result)
   {
+    for (std::size_t row = 0; row < laser.elevations.size(); ++row)
+      errors_.emplace_back(laser, view.options.town.seed, row);
   }
 
   void
@@ -75,30 +100,39 @@ public:
     if (view_.options.motion_distortion)
       town.moveTo(time);
     const Eigen::Isometry3d pose = view_.drive.sensorPose(time);
-    const double azimuth = 2.0 * M_PI * ((column + 0.5) / laser_.columns - 0.5);
-    const Eigen::Vector3d ahead(std::cos(azimuth), -std::sin(azimuth), 0.0);
-    for (std::size_t row = 0; row < laser_.elevations.size(); ++row) {
-      const double elevation = laser_.elevations[row];
-      const Eigen::Vector3d beam =
-          std::cos(elevation) * ahead + std::sin(elevation) * Eigen::Vector3d::UnitZ();
-      const std::size_t i = row * static_cast<std::size_t>(laser_.columns) +
-                            static_cast<std::size_t>(column);
-      measure({pose.translation(), pose.linear() * beam}, beam, town, i);
+    const std::size_t rows = laser_.elevations.size();
+    beams_.clear();
+    directions_.clear();
+    for (const double elevation : laser_.elevations) {
+      beams_.push_back(beamDirection(laser_, column, elevation));
+      directions_.emplace_back(pose.linear() * beams_.back());
+    }
+    hits_.assign(rows, {laser_.max_range, BeamHit::kNothing});
+    for (std::size_t row = 0; row < rows; ++row)
+      if (!view_.hidden.empty() && view_.hidden[placeOf(row, column)])
+        hits_[row].distance = 0.0;
+    town.castFan(pose.translation(), directions_, laser_.min_range, hits_);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const std::size_t i = placeOf(row, column);
+      if (hits_[row].surface != BeamHit::kNothing)
+        measure({pose.translation(), directions_[row]}, row, town, i);
       if (!result_.scan.point_times.empty())
         result_.scan.point_times[i] = static_cast<float>(offset);
     }
   }
 
 private:
-  void
-  measure(const Beam& ray,
-          const Eigen::Vector3d& beam,
-          const TownView& town,
-          std::size_t i)
+  std::size_t
+  placeOf(std::size_t row, int column) const
   {
-    const BeamHit hit = town.cast(ray, laser_.min_range, laser_.max_range);
-    if (hit.surface == BeamHit::kNothing)
-      return;
+    return row * static_cast<std::size_t>(laser_.columns) +
+           static_cast<std::size_t>(column);
+  }
+
+  void
+  measure(const Beam& ray, std::size_t row, const TownView& town, std::size_t i)
+  {
+    const BeamHit& hit = hits_[row];
     const double cosine = town.cosine(ray, hit);
     const TownSurface& surface = town.surface(hit);
     Reading reading{hit.distance, surface.reflectivity * std::sqrt(cosine)};
@@ -106,10 +140,10 @@ private:
       CounterRandom random(view_.options.town.seed, view_.index, i);
       if (!isSeen(laser_, surface, cosine, hit.distance, random))
         return;
-      reading = noisyReading(laser_, reading.range, reading.intensity, random);
+      reading = noisyReading(laser_, errors_[row], reading, random);
     }
     pcl::PointXYZI& point = (*result_.scan.cloud)[i];
-    point.getVector3fMap() = (reading.range * beam).cast<float>();
+    point.getVector3fMap() = (reading.range * beams_[row]).cast<float>();
     point.intensity = static_cast<float>(reading.intensity);
     result_.surfaces[i] = hit.surface;
     result_.true_points[i] = ray.at(hit.distance);
@@ -118,56 +152,28 @@ private:
   const SensorView& view_;
   const LaserModel& laser_;
   SimulatedScan& result_;
+  std::vector<Eigen::Vector3d> beams_;      // in the sensor's frame
+  std::vector<Eigen::Vector3d> directions_; // in the world
+  std::vector<BeamHit> hits_;
+  std::vector<BeamErrors> errors_;
 };
 
 } // namespace
 
-LaserModel
-LaserModel::hdl64()
+std::vector<bool>
+beamsOnOwnBody(const LaserModel& laser)
 {
-  LaserModel model;
-  model.name = "HDL-64E";
-  model.elevations = evenElevations(2.0, 1.0 / 3.0, 32);
-  const std::vector<double> lower = evenElevations(-8.83, 0.5, 32);
-  model.elevations.insert(model.elevations.end(), lower.begin(), lower.end());
-  return model;
-}
-
-LaserModel
-LaserModel::hdl32()
-{
-  LaserModel model;
-  model.name = "HDL-32E";
-  model.elevations = evenElevations(32.0 / 3.0, 4.0 / 3.0, 32);
-  return model;
-}
-
-LaserModel
-LaserModel::vlp16()
-{
-  LaserModel model;
-  model.name = "VLP-16";
-  model.elevations = evenElevations(15.0, 2.0, 16);
-  model.columns = 1800;
-  model.range_noise = 0.03;
-  model.max_range = 100.0;
-  return model;
-}
-
-GridGeometry
-LaserModel::geometry() const
-{
-  GridGeometry grid;
-  grid.projection = GridProjection::spherical;
-  grid.width = columns;
-  grid.height = static_cast<int>(elevations.size());
-  grid.wrap = true;
-  grid.frame = GridGeometry::vehicleFrame();
-  grid.step_u = 2.0 * M_PI / columns;
-  grid.first_u = -M_PI + 0.5 * grid.step_u;
-  for (const double elevation : elevations)
-    grid.row_v.push_back(-elevation);
-  return grid;
+  std::vector<bool> result;
+  if (laser.own_body.empty())
+    return result;
+  for (const double elevation : laser.elevations)
+    for (int column = 0; column < laser.columns; ++column) {
+      const Eigen::Vector3d beam = beamDirection(laser, column, elevation);
+      result.push_back(std::any_of(laser.own_body.begin(),
+                                   laser.own_body.end(),
+                                   [&](const auto& box) { return meets(box, beam); }));
+    }
+  return result;
 }
 
 SimulatedScan
@@ -179,7 +185,6 @@ scanWithLaser(const SensorView& view, const LaserModel& laser)
   result.scan.geometry = laser.geometry();
   if (view.options.motion_distortion)
     result.scan.point_times.assign(result.surfaces.size(), 0.0F);
-  LaserScan scan(view, laser, result);
   const TownView town(view.drive.town(),
                       view.drive.sensorPose(stamp).translation(),
                       laser.max_range,
@@ -187,6 +192,7 @@ scanWithLaser(const SensorView& view, const LaserModel& laser)
 #pragma omp parallel num_threads(view.threads)
   {
     TownView own = town;
+    LaserScan scan(view, laser, result);
 #pragma omp for schedule(dynamic, 16)
     for (int column = 0; column < laser.columns; ++column)
       scan.measureColumn(column, own);

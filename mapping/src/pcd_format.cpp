@@ -45,7 +45,7 @@ numberType(const InputFile& file, const std::string& letter)
     return NumberType::signed_int;
   if (letter == "U")
     return NumberType::unsigned_int;
-  file.fail("field type \"" + letter.substr(0, 20) + "\" is none of F, I and U");
+  file.fail("field type " + quotedWord(letter) + " is none of F, I and U");
 }
 
 std::vector<RecordField>
@@ -128,7 +128,7 @@ readPcd(const InputFile& file)
   else if (format == "binary_compressed")
     layout.readColumns(inflate(file, body, points * layout.stride()), points, cloud);
   else
-    file.fail("DATA \"" + format.substr(0, 20) + "\" is unknown");
+    file.fail("DATA " + quotedWord(format) + " is unknown");
   return cloud;
 }
 

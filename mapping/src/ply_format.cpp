@@ -42,8 +42,7 @@ readProperty(const InputFile& file, const Words& words)
     file.fail("a property has no type or name");
   const auto type = types.find(words[1]);
   if (type == types.end())
-    file.fail("vertex property of type \"" + words[1].substr(0, 20) +
-              "\" is not supported");
+    file.fail("vertex property of type " + quotedWord(words[1]) + " is not supported");
   return {words[2], type->second.first, type->second.second, 1};
 }
 
@@ -92,7 +91,7 @@ readPly(const InputFile& file)
   const bool ascii = header.format == "ascii";
   const bool big_endian = header.format == "binary_big_endian";
   if (!ascii && !big_endian && header.format != "binary_little_endian")
-    file.fail("format \"" + header.format.substr(0, 20) + "\" is unknown");
+    file.fail("format " + quotedWord(header.format) + " is unknown");
   const std::size_t least = ascii ? 2 * layout.numValues() : layout.stride();
   if (points > (body.size() + 1) / least)
     file.fail("holds fewer than the " + std::to_string(points) +

@@ -201,8 +201,8 @@ RecordLayout::readAscii(std::string_view text, std::size_t points, RawCloud& out
         value = std::numeric_limits<double>::quiet_NaN();
       else if (error != std::errc() || end != last)
         throw InputError(file_,
-                         "point " + std::to_string(i) + " holds \"" +
-                             std::string(word.substr(0, 20)) + "\", not a number");
+                         "point " + std::to_string(i) + " holds " + quotedWord(word) +
+                             ", not a number");
     }
     append([&](const Place& place) { return values[place.value]; }, out);
   }

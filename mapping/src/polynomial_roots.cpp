@@ -3,6 +3,7 @@
 
 #include "polynomial_roots.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -41,6 +42,24 @@ append(RootList& roots, double value)
     roots.values[static_cast<std::size_t>(roots.count++)] = value;
 }
 
+/** Both roots without a difference of nearly equal numbers. */
+RootList
+rootsOfQuadratic(const Polynomial& f, double low, double high)
+{
+  RootList roots;
+  const double half = 0.5 * f.c[1];
+  const double square = half * half - f.c[0] * f.c[2];
+  if (!(square >= 0.0))
+    return roots;
+  const double q = -(half + std::copysign(std::sqrt(square), half));
+  const double one = q / f.c[2];
+  const double other = q != 0.0 ? f.c[0] / q : one;
+  for (const double root : {std::min(one, other), std::max(one, other)})
+    if (root >= low && root <= high)
+      append(roots, root);
+  return roots;
+}
+
 } // namespace
 
 double
@@ -74,6 +93,8 @@ rootsIn(const Polynomial& polynomial, double low, double high)
       append(roots, root);
     return roots;
   }
+  if (polynomial.degree == 2)
+    return rootsOfQuadratic(polynomial, low, high);
   const Polynomial slope = polynomial.derivative();
   const RootList turns = rootsIn(slope, low, high);
   double from = low;

@@ -216,13 +216,41 @@ public:
     if (!result_.reason.empty())
       return result_;
     result_.available = true;
-    for (const std::vector<NodeId>& part : graph_.components())
-      if (part.size() > 1 && result_.available)
-        bound(part);
+    result_.cost = costOf(graph_, form_);
+    boundParts();
+    if (!result_.certifies()) {
+      const OptimalityCertificate before = result_;
+      refine();
+      boundParts();
+      if (result_.lower_bound < before.lower_bound)
+        result_ = before;
+    }
     return result_;
   }
 
 private:
+  void
+  boundParts()
+  {
+    result_.lower_bound = result_.rounding = 0.0;
+    for (const std::vector<NodeId>& part : graph_.components())
+      if (part.size() > 1)
+        bound(part);
+  }
+
+  /** The bound holds wherever Lambda is taken, and is better the nearer to a minimum.
+   */
+  void
+  refine()
+  {
+    PoseGraphOptions options;
+    options.cost = form_;
+    options.method = PoseGraphMethod::Multifrontal;
+    options.max_iterations = 2;
+    options.function_tolerance = 1e-15;
+    optimize(graph_, options);
+  }
+
   std::string
   obstacle() const
   {
@@ -284,7 +312,6 @@ private:
     constexpr double kRounding = 1e-13;
     CostForm form = formOf(part);
     const double least = kRounding * form.largestEntry();
-    result_.cost += form.cost();
     result_.rounding += 10.0 * least * form.rotationRows();
     for (double share = 1e-9; share < 1.0; share *= 10.0) {
       const double shift =
@@ -298,7 +325,7 @@ private:
     // zero is always a bound
   }
 
-  const PoseGraph& graph_;
+  PoseGraph graph_;
   PoseGraphCost form_;
   OptimalityCertificate result_;
 };

@@ -16,6 +16,7 @@ namespace {
 constexpr double kLeastPivot = 1e-14;
 constexpr double kFirstDamping = 1e-8;
 constexpr double kMostDamping = 1e12;
+constexpr double kVanishing = 1e-24; // of the cost: all residuals are rounding
 
 } // namespace
 
@@ -135,6 +136,7 @@ void
 PoseGraphEquations::minimize(const PoseGraphOptions& options, PoseGraphSummary& summary)
 {
   double cost = problem_.cost();
+  const double vanishing = kVanishing * cost;
   double damping = 0.0; // none until a step fails
   double growth = 2.0;  // faster and faster while steps fail (Nielsen's rule)
   const auto strengthen = [&] {
@@ -159,7 +161,8 @@ PoseGraphEquations::minimize(const PoseGraphOptions& options, PoseGraphSummary& 
       strengthen();
       continue;
     }
-    summary.converged = std::abs(gain) <= options.function_tolerance * cost;
+    summary.converged =
+        std::abs(gain) <= options.function_tolerance * cost || next <= vanishing;
     cost = next;
     damping /= 3.0;
     growth = 2.0;

@@ -136,7 +136,8 @@ solverOptions(const PoseGraphOptions& options)
   result.max_num_iterations = options.max_iterations;
   result.function_tolerance = options.function_tolerance;
   result.gradient_tolerance = 0.0;
-  result.parameter_tolerance = 0.0;
+  result.parameter_tolerance = 1e-13; // where residuals vanish, nothing else ends it
+  result.max_num_consecutive_invalid_steps = 50;
   result.initial_trust_region_radius = 1e8; // starts are good: nearly Gauss-Newton
   result.max_trust_region_radius = 1e32;
   result.num_threads = options.threads;

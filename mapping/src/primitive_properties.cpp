@@ -74,27 +74,36 @@ normalOf(const PlanePatch& p, const Vector3d&)
 Vector3d
 normalOf(const RuledPatch& p, const Vector3d& point)
 {
+  constexpr int kMostSteps = 20;
+  constexpr double kLastStep = 1e-8; // the next one would be its square
   double u = 0.5;
   double v = 0.5;
-  for (int step = 0; step < 20; ++step) {
-    const Vector3d du = p.point(1.0, v) - p.point(0.0, v);
+  double step = 1.0;
+  Vector3d du;
+  Vector3d dv;
+  for (int k = 0; k < kMostSteps && step > kLastStep; ++k) {
+    const Vector3d start = p.point(0.0, v);
     const auto slope = [&](const std::array<Vector3d, 3>& c) {
       return Vector3d(2.0 * ((1.0 - v) * (c[1] - c[0]) + v * (c[2] - c[1])));
     };
-    const Vector3d dv = (1.0 - u) * slope(p.start) + u * slope(p.end);
-    const Vector3d miss = point - p.point(u, v);
-    Eigen::Matrix2d system;
-    system << du.dot(du), du.dot(dv), du.dot(dv), dv.dot(dv);
-    const Eigen::Vector2d move =
-        system.inverse() * Eigen::Vector2d(du.dot(miss), dv.dot(miss));
-    if (!(move.norm() > 1e-12))
-      return du.cross(dv).normalized();
-    u = std::min(1.0, std::max(0.0, u + move.x()));
-    v = std::min(1.0, std::max(0.0, v + move.y()));
+    du = p.point(1.0, v) - start;
+    dv = (1.0 - u) * slope(p.start) + u * slope(p.end);
+    const Vector3d miss = point - start - u * du;
+    const double uu = du.squaredNorm();
+    const double uv = du.dot(dv);
+    const double vv = dv.squaredNorm();
+    const double determinant = uu * vv - uv * uv;
+    const double by_u = du.dot(miss);
+    const double by_v = dv.dot(miss);
+    const double next_u =
+        std::min(1.0, std::max(0.0, u + (vv * by_u - uv * by_v) / determinant));
+    const double next_v =
+        std::min(1.0, std::max(0.0, v + (uu * by_v - uv * by_u) / determinant));
+    step = std::max(std::abs(next_u - u), std::abs(next_v - v));
+    u = next_u;
+    v = next_v;
   }
-  return (p.point(1.0, v) - p.point(0.0, v))
-      .cross(p.point(u, 1.0) - p.point(u, 0.0))
-      .normalized();
+  return du.cross(dv).normalized();
 }
 
 Vector3d

@@ -5,17 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace pcl {
 namespace nurbs {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 3;
 constexpr int kBins = 16;
-constexpr std::size_t kDeepest = 128;
 
 double
 halfArea(const Eigen::AlignedBox3d& box)
@@ -26,10 +22,6 @@ halfArea(const Eigen::AlignedBox3d& box)
   return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
 }
 
-/** Where rays and boxes are compared in single precision, in a coordinate more. */
-constexpr float kEverywhere = 1e30F;
-constexpr float kDistanceMargin = 1e-3F; // metres, beyond rounding of distances
-
 /** By how much a box is grown, so that rounding of its corners, of rays' origins and of
  * distances does not lose anything. */
 double
@@ -38,12 +30,6 @@ roundingMargin(const Eigen::AlignedBox3d& box)
   const double farthest =
       std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   return 1e-4 + 1e-6 * farthest;
-}
-
-Eigen::Array4f
-inSinglePrecision(const Eigen::Vector3d& place, double fourth)
-{
-  return Eigen::Array4d(place.x(), place.y(), place.z(), fourth).cast<float>();
 }
 
 } // namespace
@@ -80,12 +66,12 @@ private:
       centers.extend(boxes_[tree_.order_[i]].center());
     }
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(roundingMargin(box));
-    tree_.nodes_[node].low = inSinglePrecision(box.min() - margin, -kEverywhere);
-    tree_.nodes_[node].high = inSinglePrecision(box.max() + margin, kEverywhere);
+    tree_.nodes_[node].low = (box.min() - margin).cast<float>();
+    tree_.nodes_[node].high = (box.max() + margin).cast<float>();
     tree_.nodes_[node].first = first;
     tree_.nodes_[node].count = last - first;
     // Half of the depth is left to halving, which ends within 32 levels.
-    if (last - first <= kLeafSize)
+    if (last - first == 1)
       return;
     const std::uint32_t middle =
         depth < kDeepest / 2 ? bestPlace(first, last, centers) : (first + last) / 2;
@@ -155,57 +141,6 @@ PrimitiveTree::PrimitiveTree(std::vector<Primitive> primitives)
     : primitives_(std::move(primitives))
 {
   Builder(*this).build();
-}
-
-BeamHit
-PrimitiveTree::cast(const Beam& ray, double near, double far) const
-{
-  BeamHit hit{far, BeamHit::kNothing};
-  if (nodes_.empty())
-    return hit;
-  const Eigen::Array4f origin = inSinglePrecision(ray.origin, 0.0);
-  // Not infinite, so that a ray within the side of a box gives 0 and not NaN.
-  const Eigen::Array4f along = inSinglePrecision(ray.direction, 1.0);
-  const Eigen::Array4f inverse = (along.abs() < 1e-30F).select(1e-30F, along).inverse();
-  constexpr float kNever = std::numeric_limits<float>::infinity();
-  const auto single_near = static_cast<float>(near);
-  auto single_far = static_cast<float>(far) + kDistanceMargin;
-  // Distance at which the ray enters a box, infinity if it does not before the hit.
-  const auto entry = [&](const Node& node) {
-    const Eigen::Array4f one = (node.low - origin) * inverse;
-    const Eigen::Array4f other = (node.high - origin) * inverse;
-    const float in = std::max(one.min(other).maxCoeff(), single_near);
-    const float out = std::min(one.max(other).minCoeff(), single_far);
-    return in <= out ? in : kNever;
-  };
-  struct Pending {
-    std::uint32_t node;
-    float entry;
-  };
-  std::array<Pending, kDeepest> stack;
-  std::size_t size = 0;
-  stack[size++] = {0, entry(nodes_[0])};
-  while (size > 0) {
-    const Pending next = stack[--size];
-    if (!(next.entry < single_far))
-      continue;
-    const Node& node = nodes_[next.node];
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const double distance =
-          intersect(primitives_[order_[i]], ray, near, hit.distance);
-      if (distance < hit.distance)
-        hit = {distance, order_[i]};
-    }
-    single_far = static_cast<float>(hit.distance) + kDistanceMargin;
-    if (node.count > 0)
-      continue;
-    const Pending left{node.first, entry(nodes_[node.first])};
-    const Pending right{node.first + 1, entry(nodes_[node.first + 1])};
-    const bool left_first = left.entry <= right.entry;
-    stack[size++] = left_first ? right : left;
-    stack[size++] = left_first ? left : right;
-  }
-  return hit;
 }
 
 } // namespace nurbs

@@ -41,7 +41,12 @@ readPointTimes(const std::filesystem::path& path, std::size_t points)
 /** Scans that lie in files, read when they are asked for. */
 class FileScanSource : public ScanSource {
 public:
-  explicit FileScanSource(ScanFiles files) : files_(std::move(files)) {}
+  explicit FileScanSource(ScanFiles files) : files_(std::move(files))
+  {
+    for (const ScanFile& scan : files_.scans)
+      if (scan.truth)
+        truth_.push_back({scan.stamp, *scan.truth});
+  }
 
   std::size_t
   size() const override
@@ -77,7 +82,7 @@ public:
   const Trajectory*
   truth() const override
   {
-    return files_.truth.empty() ? nullptr : &files_.truth;
+    return truth_.empty() ? nullptr : &truth_;
   }
 
   Eigen::Isometry3d
@@ -119,6 +124,7 @@ private:
   }
 
   ScanFiles files_;
+  Trajectory truth_;
 };
 
 /** Whether a file is there and looks like its extension says. */
@@ -139,8 +145,10 @@ requireWhole(const ScanFile& scan, const CloudReadOptions& options)
                          " bytes is not a multiple of " + std::to_string(stride));
   std::string start(4, '\0');
   std::ifstream(name, std::ios::binary).read(start.data(), 4);
+  const auto extension = scan.cloud.extension();
   const bool png = start == "\x89PNG";
-  if (png != (scan.cloud.extension() == ".png"))
+  const bool ply = start.substr(0, 3) == "ply";
+  if (png != (extension == ".png") || ply != (extension == ".ply"))
     throw InputError(name, "its content is not what its extension says");
 }
 
@@ -159,6 +167,9 @@ ScanFiles::ScanFiles(const ScanReadOptions& read_options)
     throw std::invalid_argument("ScanReadOptions: the period must be positive");
   if (!(options.cloud.depth_scale >= 0.0))
     throw std::invalid_argument("ScanReadOptions: the depth scale must be positive");
+  if (options.cloud.bin_values_per_point != 3 &&
+      options.cloud.bin_values_per_point != 4)
+    throw std::invalid_argument("ScanReadOptions: .bin has 3 or 4 values per point");
 }
 
 void
@@ -166,13 +177,9 @@ ScanFiles::keepOnly(const std::vector<bool>& good)
 {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < scans.size(); ++k)
-    if (good[k]) {
-      if (!truth.empty())
-        truth[kept] = truth[k];
+    if (good[k])
       scans[kept++] = scans[k];
-    }
   scans.resize(kept);
-  truth.resize(truth.empty() ? 0 : kept);
 }
 
 void
@@ -193,16 +200,16 @@ ScanFiles::setStamps(const std::vector<double>& times,
 void
 ScanFiles::setTruth(const Trajectory& poses, const std::filesystem::path& source)
 {
-  truth.clear();
-  for (const ScanFile& scan : scans) {
-    if (scan.line >= poses.size()) {
-      faults.report(source, "has no pose for " + scan.cloud.filename().string());
-      truth.clear();
-      return;
+  std::size_t with = 0;
+  for (ScanFile& scan : scans)
+    if (scan.line < poses.size()) {
+      scan.truth = poses[scan.line].T_world_body;
+      ++with;
     }
-    truth.push_back(poses[scan.line]);
-    truth.back().stamp = scan.stamp;
-  }
+  if (with < scans.size())
+    faults.report(source,
+                  "has a pose for " + std::to_string(with) + " of " +
+                      std::to_string(scans.size()) + " scans");
 }
 
 std::unique_ptr<ScanSource>

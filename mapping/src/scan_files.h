@@ -6,6 +6,7 @@
 #include <pcl/mapping/scan_readers.h>
 
 #include <filesystem>
+#include <optional>
 
 namespace pcl {
 namespace nurbs {
@@ -50,7 +51,8 @@ struct ScanFile {
   std::filesystem::path cloud;
   std::filesystem::path point_times; /**< empty for none */
   double stamp = 0.0;
-  std::size_t line = 0; /**< its line in files of times and poses */
+  std::size_t line = 0;                   /**< its line in files of times and poses */
+  std::optional<Eigen::Isometry3d> truth; /**< pose of the sensor */
 };
 
 /** What a layout was found to hold. */
@@ -59,7 +61,6 @@ struct ScanFiles {
 
   std::filesystem::path folder; /**< for messages */
   std::vector<ScanFile> scans;
-  Trajectory truth; /**< one per scan, or empty */
   Eigen::Isometry3d calibration = Eigen::Isometry3d::Identity();
   ScanReadOptions options;
   FaultList faults;
@@ -68,7 +69,7 @@ struct ScanFiles {
   void
   setStamps(const std::vector<double>& times, const std::filesystem::path& source);
 
-  /** Give each scan its pose of a list by its line; no truth if one has none. */
+  /** Give each scan its pose of a list by its line; those without one are a fault. */
   void
   setTruth(const Trajectory& poses, const std::filesystem::path& source);
 
@@ -82,8 +83,13 @@ private:
   keepOnly(const std::vector<bool>& good);
 };
 
-/** Files of a folder with one of some extensions, by name; a folder that is missing or
- * holds none is an InputError. */
+/** Files of a folder with one of some extensions, by name; a folder that is missing is
+ * an InputError. */
+std::vector<std::filesystem::path>
+filesIn(const std::filesystem::path& folder,
+        const std::vector<std::string>& extensions);
+
+/** The same; none is an InputError. */
 std::vector<std::filesystem::path>
 filesByName(const std::filesystem::path& folder,
             const std::vector<std::string>& extensions);

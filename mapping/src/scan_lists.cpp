@@ -18,8 +18,7 @@ constexpr std::size_t kLargestList = std::size_t{1} << 30U;
 } // namespace
 
 std::vector<std::filesystem::path>
-filesByName(const std::filesystem::path& folder,
-            const std::vector<std::string>& extensions)
+filesIn(const std::filesystem::path& folder, const std::vector<std::string>& extensions)
 {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
@@ -34,9 +33,17 @@ filesByName(const std::filesystem::path& folder,
       result.push_back(entry->path());
   if (error)
     throw InputError(folder.string(), error.message());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::vector<std::filesystem::path>
+filesByName(const std::filesystem::path& folder,
+            const std::vector<std::string>& extensions)
+{
+  std::vector<std::filesystem::path> result = filesIn(folder, extensions);
   if (result.empty())
     throw InputError(folder.string(), "holds no scan");
-  std::sort(result.begin(), result.end());
   return result;
 }
 
@@ -63,8 +70,7 @@ numberOf(const std::filesystem::path& file, const std::string& word)
   const auto [end, error] =
       std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    throw InputError(file.string(),
-                     "\"" + word.substr(0, 20) + "\" is not a finite number");
+    throw InputError(file.string(), quotedWord(word) + " is not a finite number");
   return value;
 }
 

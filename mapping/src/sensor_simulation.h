@@ -18,9 +18,13 @@ public:
   void
   moveTo(double time);
 
-  /** The first meeting of a ray with anything. */
-  BeamHit
-  cast(const Beam& ray, double near, double far) const;
+  /** The first meetings of rays from one point with anything, as
+   * PrimitiveTree::castFan(). The rays are expected to lie in one plane. */
+  void
+  castFan(const Eigen::Vector3d& origin,
+          const std::vector<Eigen::Vector3d>& directions,
+          double near,
+          std::vector<BeamHit>& hits) const;
 
   /** |cos| of the angle between a ray and the normal of the surface it meets. */
   double
@@ -38,9 +42,17 @@ private:
     std::optional<Eigen::Isometry3d> pose;
   };
 
+  void
+  castAtBody(const Body& body, const Beam& ray, double near, BeamHit& hit) const;
+
   const Town& town_;
   std::vector<Body> bodies_;
 };
+
+/** Which beams of a scan meet the vehicle itself, beam by beam and column by column;
+ * empty if it has no parts. */
+std::vector<bool>
+beamsOnOwnBody(const LaserModel& laser);
 
 /** What a sensor sees with; poses are those of the sensor. */
 struct SensorView {
@@ -48,6 +60,7 @@ struct SensorView {
   const SimulationOptions& options;
   std::size_t index;
   int threads;
+  const std::vector<bool>& hidden; /**< as beamsOnOwnBody() */
 };
 
 /** A scan without any return, of so many points. */

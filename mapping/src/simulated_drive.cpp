@@ -75,27 +75,43 @@ TownView::moveTo(double time)
     body.pose = town_.moverPose(*body.mover, time);
 }
 
-BeamHit
-TownView::cast(const Beam& ray, double near, double far) const
+void
+TownView::castAtBody(const Body& body, const Beam& ray, double near, BeamHit& hit) const
 {
-  BeamHit hit = town_.tree().cast(ray, near, far);
+  const Eigen::Vector3d way = ray.origin - body.pose->translation();
+  const double radius = body.mover->radius;
+  const double ahead = way.dot(ray.direction);
+  if (way.squaredNorm() - ahead * ahead > radius * radius)
+    return;
+  const Eigen::Matrix3d turn = body.pose->linear().transpose();
+  const Beam local{turn * way, turn * ray.direction};
+  for (std::uint32_t k = 0; k < body.mover->num_surfaces; ++k) {
+    const std::uint32_t id = body.mover->first_surface + k;
+    const double distance = intersect(town_.primitive(id), local, near, hit.distance);
+    if (distance < hit.distance)
+      hit = {distance, id};
+  }
+}
+
+void
+TownView::castFan(const Eigen::Vector3d& origin,
+                  const std::vector<Eigen::Vector3d>& directions,
+                  double near,
+                  std::vector<BeamHit>& hits) const
+{
+  constexpr double kFlatness = 1e-3; // metres between a ray and the plane at 100 m
+  town_.tree().castFan(origin, directions, near, hits);
+  const Eigen::Vector3d normal = directions.front().cross(directions.back());
+  const Eigen::Vector3d unit = normal.normalized(); // zero for a single direction
   for (const Body& body : bodies_) {
     if (!body.pose)
       continue;
-    const Eigen::Vector3d way = ray.origin - body.pose->translation();
-    const double radius = body.mover->radius;
-    if (way.squaredNorm() - std::pow(way.dot(ray.direction), 2) > radius * radius)
+    const double off = std::abs(unit.dot(body.pose->translation() - origin));
+    if (off > body.mover->radius + kFlatness)
       continue;
-    const Eigen::Matrix3d turn = body.pose->linear().transpose();
-    const Beam local{turn * way, turn * ray.direction};
-    for (std::uint32_t k = 0; k < body.mover->num_surfaces; ++k) {
-      const std::uint32_t id = body.mover->first_surface + k;
-      const double distance = intersect(town_.primitive(id), local, near, hit.distance);
-      if (distance < hit.distance)
-        hit = {distance, id};
-    }
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      castAtBody(body, {origin, directions[i]}, near, hits[i]);
   }
-  return hit;
 }
 
 double
@@ -103,12 +119,15 @@ TownView::cosine(const Beam& ray, const BeamHit& hit) const
 {
   const Primitive& primitive = town_.primitive(hit.surface);
   const Eigen::Vector3d point = ray.at(hit.distance);
-  for (const Body& body : bodies_)
-    if (hit.surface >= body.mover->first_surface &&
-        hit.surface - body.mover->first_surface < body.mover->num_surfaces)
-      return std::abs(ray.direction.dot(
-          body.pose->linear() * normalAt(primitive, body.pose->inverse() * point)));
-  return std::abs(ray.direction.dot(normalAt(primitive, point)));
+  if (hit.surface < town_.tree().primitives().size())
+    return std::abs(ray.direction.dot(normalAt(primitive, point)));
+  const auto owner =
+      std::find_if(bodies_.begin(), bodies_.end(), [&](const Body& body) {
+        return hit.surface - body.mover->first_surface < body.mover->num_surfaces;
+      });
+  const Eigen::Isometry3d& pose = *owner->pose;
+  return std::abs(
+      ray.direction.dot(pose.linear() * normalAt(primitive, pose.inverse() * point)));
 }
 
 SimulatedScan
@@ -137,6 +156,8 @@ SimulatedDrive::SimulatedDrive(const Trajectory& drive,
     throw std::invalid_argument("SimulatedDrive: the number of threads is negative");
   town_ = std::make_unique<Town>(drive, options.town);
   truth_ = sensorPoses(town_->drive(), options.T_body_sensor);
+  if (const auto* laser = std::get_if<LaserModel>(&sensor_))
+    hidden_ = beamsOnOwnBody(*laser);
 }
 
 SimulatedDrive::~SimulatedDrive() = default;
@@ -169,7 +190,7 @@ SimulatedDrive::simulate(std::size_t index) const
   stamp(index); // throws when there is no such scan
   const auto cores = static_cast<int>(std::thread::hardware_concurrency());
   const int threads = options_.threads > 0 ? options_.threads : std::max(1, cores);
-  const SensorView view{*this, options_, index, threads};
+  const SensorView view{*this, options_, index, threads, hidden_};
   if (const auto* laser = std::get_if<LaserModel>(&sensor_))
     return scanWithLaser(view, *laser);
   return scanWithCamera(view, std::get<DepthCameraModel>(sensor_));

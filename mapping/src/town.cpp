@@ -5,6 +5,7 @@
 
 #include "town_parts.h"
 #include "town_path.h"
+#include "town_plots.h"
 
 #include <array>
 #include <cmath>
@@ -32,6 +33,22 @@ requireUsable(const Trajectory& drive, const TownOptions& options)
   }
   if (pathLengths(drive).back() > kLongest)
     throw std::invalid_argument("Town: the drive is longer than 200 km");
+}
+
+/** All that stands still. */
+void
+addScene(TownParts& parts, const TownPath& path, const TownOptions& options)
+{
+  if (options.scene == TownScene::Tunnel)
+    addTunnel(parts, path);
+  else if (options.scene == TownScene::Square)
+    addSquare(parts, path);
+  else {
+    TownPlots plots;
+    addGround(parts, path, options.seed);
+    addBuildings(parts, path, plots, options.seed);
+    addFurniture(parts, path, plots, options.seed);
+  }
 }
 
 } // namespace
@@ -63,13 +80,15 @@ surfaceKindName(SurfaceKind kind)
 Town::Town(const Trajectory& drive, const TownOptions& options) : drive_(drive)
 {
   requireUsable(drive, options);
+  if (options.scene == TownScene::Square)
+    for (StampedPose& pose : drive_)
+      pose.T_world_body.translation().z() =
+          drive.front().T_world_body.translation().z();
   path_ = std::make_unique<TownPath>(drive_, options.sensor_height);
   TownParts parts;
-  addGround(parts, *path_, options.seed);
-  addBuildings(parts, *path_, options.seed);
-  addFurniture(parts, *path_, options.seed);
+  addScene(parts, *path_, options);
   const auto still = static_cast<std::ptrdiff_t>(parts.primitives.size());
-  if (options.movers)
+  if (options.movers && options.scene == TownScene::Streets)
     movers_ = makeMovers(parts, *path_, drive_, options.seed);
   surfaces_ = std::move(parts.surfaces);
   moving_.assign(parts.primitives.begin() + still, parts.primitives.end());

@@ -3,9 +3,8 @@
 
 #include "town_parts.h"
 #include "town_path.h"
+#include "town_plots.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace pcl {
@@ -15,70 +14,89 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/** A rectangle on the ground: from a corner along x (the front) and to the back. */
-struct Plot {
-  Vector2d corner;
-  Vector2d along;
-  double width = 0.0;
-  double depth = 0.0;
-
-  Vector2d
-  back() const
-  {
-    return {-along.y(), along.x()};
-  }
-
-  std::array<Vector2d, 4>
-  corners() const
-  {
-    const Vector2d x = width * along;
-    const Vector2d y = depth * back();
-    return {corner, corner + x, corner + x + y, corner + y};
-  }
+/** How a stretch of one side of a street is built up. */
+struct Block {
+  double end = 0.0;            /**< arc length */
+  double setback = 0.0;        /**< of the fronts from the sidewalk, metres */
+  double variation = 0.0;      /**< of the setback */
+  double share_built = 0.0;    /**< of the front */
+  double share_touching = 0.0; /**< of houses without a gap to the next */
 };
 
-/** Whether one of two plots' sides separates them. */
-bool
-isApart(const Plot& one, const Plot& other)
+Block
+nextBlock(double arc, CounterRandom& random)
 {
-  const auto separates = [](const Plot& a, const Plot& b, const Vector2d& axis) {
-    const auto range = [&](const Plot& plot) {
-      double low = 1e300;
-      double high = -1e300;
-      for (const Vector2d& corner : plot.corners()) {
-        low = std::min(low, axis.dot(corner));
-        high = std::max(high, axis.dot(corner));
-      }
-      return std::make_pair(low, high);
-    };
-    const auto ra = range(a);
-    const auto rb = range(b);
-    return ra.second <= rb.first || rb.second <= ra.first;
-  };
-  return separates(one, other, one.along) || separates(one, other, one.back()) ||
-         separates(one, other, other.along) || separates(one, other, other.back());
+  const double style = random.uniform();
+  Block block;
+  if (style < 0.35) // old town: houses at the sidewalk
+    block = {0.0, random.uniform(0.1, 0.6), 0.4, 0.97, 0.85};
+  else if (style < 0.75) // front gardens
+    block = {0.0, random.uniform(2.5, 6.0), 1.0, 0.9, 0.4};
+  else if (style < 0.92) // an avenue
+    block = {0.0, random.uniform(6.0, 13.0), 1.5, 0.85, 0.3};
+  else // hardly built
+    block = {0.0, random.uniform(4.0, 12.0), 3.0, 0.4, 0.0};
+  block.end = arc + random.uniform(50.0, 140.0);
+  return block;
 }
 
 /** Finds room for plots along one side of the path. */
 class Builder {
 public:
-  Builder(TownParts& parts, const TownPath& path) : parts_(parts), path_(path) {}
+  Builder(TownParts& parts, const TownPath& path, TownPlots& plots)
+      : parts_(parts), path_(path), plots_(plots)
+  {
+  }
 
-  /** \a side is 1 on the left. */
+  /** Strips across the path that stay free, with a view between the houses. \a side is
+   * 1 on the left. */
   void
-  buildAlong(double side, CounterRandom& random)
+  leaveSideStreets(double side, CounterRandom& random)
   {
     const double end = path_.nodes().back().arc;
+    for (double arc = random.uniform(20.0, 100.0); arc < end;
+         arc += random.uniform(60.0, 150.0)) {
+      Plot plot = plotAt(arc, random.uniform(8.0, 13.0), side, 0.0);
+      plot.depth = 60.0;
+      plots_.add(plot);
+    }
+  }
+
+  void
+  buildFront(double side, CounterRandom& random)
+  {
+    const double end = path_.nodes().back().arc;
+    Block block = nextBlock(0.0, random);
     for (double arc = 0.0; arc < end;) {
+      if (arc > block.end)
+        block = nextBlock(arc, random);
       const double width = random.uniform(8.0, 17.0);
-      const double setback =
-          random.chance(0.5) ? random.uniform(0.1, 1.0) : random.uniform(2.5, 6.0);
-      if (random.chance(0.8) && build(arc, width, side, setback, random)) {
-        arc += width + (random.chance(0.6) ? 0.02 : random.uniform(2.0, 9.0));
+      const double setback = block.setback + random.uniform(0.0, block.variation);
+      if (random.chance(block.share_built) &&
+          build(arc, width, side, setback, random)) {
+        const bool touching = random.chance(block.share_touching);
+        arc += width + (touching ? 0.02 : random.uniform(2.0, 9.0));
         continue;
       }
-      const bool walled = random.chance(0.5) && buildWall(arc, width, side);
-      arc += walled ? width : 3.0;
+      const bool walled = random.chance(0.6) && buildWall(arc, width, side);
+      arc += walled ? width : random.uniform(3.0, 8.0);
+    }
+  }
+
+  /** Plain buildings behind the gardens of the houses at the street. */
+  void
+  buildBackground(double side, double nearest, double farthest, CounterRandom& random)
+  {
+    const double end = path_.nodes().back().arc;
+    for (double arc = 0.0; arc < end; arc += random.uniform(3.0, 9.0)) {
+      Plot plot = plotAt(
+          arc, random.uniform(6.0, 22.0), side, random.uniform(nearest, farthest));
+      plot.depth = random.uniform(4.0, 10.0);
+      if (plot.width < 4.0 || !isFree(plot))
+        continue;
+      plots_.add(plot);
+      parts_.beginObject(frameOf(plot));
+      addPlainHouse(parts_, plot.width, plot.depth, random);
     }
   }
 
@@ -118,10 +136,7 @@ private:
           return false;
       }
     }
-    return std::none_of(plots_.begin(), plots_.end(), [&](const Plot& other) {
-      const double reach = plot.width + plot.depth + other.width + other.depth;
-      return (plot.corner - other.corner).norm() < reach && !isApart(plot, other);
-    });
+    return plots_.isFree(plot);
   }
 
   Eigen::Isometry3d
@@ -140,7 +155,7 @@ private:
       plot.depth = depth;
       if (plot.width < 6.0 || !isFree(plot))
         continue;
-      plots_.push_back(plot);
+      plots_.add(plot);
       parts_.beginObject(frameOf(plot));
       addHouse(parts_, plot.width, plot.depth, random);
       return true;
@@ -159,7 +174,7 @@ private:
     plot.depth = kThickness;
     if (plot.width < 6.0 || !isFree(plot))
       return false;
-    plots_.push_back(plot);
+    plots_.add(plot);
     parts_.beginObject(frameOf(plot));
     parts_.use(SurfaceKind::Wall, 0.45);
     OpeningGrid gates;
@@ -182,19 +197,28 @@ private:
 
   TownParts& parts_;
   const TownPath& path_;
-  std::vector<Plot> plots_;
+  TownPlots& plots_;
 };
 
 } // namespace
 
 void
-addBuildings(TownParts& parts, const TownPath& path, std::uint64_t seed)
+addBuildings(TownParts& parts,
+             const TownPath& path,
+             TownPlots& plots,
+             std::uint64_t seed)
 {
-  Builder builder(parts, path);
+  Builder builder(parts, path, plots);
   CounterRandom left(seed, 1);
   CounterRandom right(seed, 2);
-  builder.buildAlong(1.0, left);
-  builder.buildAlong(-1.0, right);
+  builder.leaveSideStreets(1.0, left);
+  builder.leaveSideStreets(-1.0, right);
+  builder.buildFront(1.0, left);
+  builder.buildFront(-1.0, right);
+  for (const double nearest : {16.0, 38.0}) {
+    builder.buildBackground(1.0, nearest, nearest + 16.0, left);
+    builder.buildBackground(-1.0, nearest, nearest + 16.0, right);
+  }
 }
 
 } // namespace nurbs

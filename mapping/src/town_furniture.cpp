@@ -3,7 +3,9 @@
 
 #include "town_parts.h"
 #include "town_path.h"
+#include "town_plots.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl {
@@ -27,6 +29,7 @@ void
 addLeaves(TownParts& parts,
           const Vector3d& center,
           const Vector3d& half,
+          double leaf,
           int count,
           CounterRandom& random)
 {
@@ -36,20 +39,24 @@ addLeaves(TownParts& parts,
     const double depth = std::cbrt(random.uniform(0.2, 1.0));
     parts.addDisc(center + depth * half.cwiseProduct(direction),
                   randomDirection(random),
-                  random.uniform(0.08, 0.24));
+                  random.uniform(0.5 * leaf, 1.5 * leaf));
   }
 }
 
+/** A tree with a crown of a radius. */
 void
-addTree(TownParts& parts, CounterRandom& random)
+addTree(TownParts& parts, double size, CounterRandom& random)
 {
-  const double radius = random.uniform(0.1, 0.25);
+  const double radius = size * random.uniform(0.07, 0.12);
   const double height = random.uniform(1.8, 3.0);
   parts.use(SurfaceKind::Trunk, 0.4);
-  parts.addCylinder({0.0, 0.0, -0.4}, {0.0, 0.0, height + 0.4}, radius, 0.7 * radius);
-  const double size = random.uniform(1.2, 2.2);
-  addLeaves(
-      parts, {0.0, 0.0, height + 0.7 * size}, {size, size, 1.1 * size}, 130, random);
+  parts.addCylinder({0.0, 0.0, -0.6}, {0.0, 0.0, height + 0.6}, radius, 0.7 * radius);
+  addLeaves(parts,
+            {0.0, 0.0, height + 0.8 * size},
+            {size, size, 1.2 * size},
+            0.1 * size,
+            180,
+            random);
 }
 
 void
@@ -83,74 +90,119 @@ addPavilion(TownParts& parts, CounterRandom& random)
   }
 }
 
-/** Places things along one line beside the path where nothing else is. */
-class Row {
+void
+addHedge(TownParts& parts, CounterRandom& random)
+{
+  addLeaves(parts, {0.0, 0.0, 0.6}, {1.8, 0.5, 0.8}, 0.16, 110, random);
+}
+
+/** Where things of a kind stand beside the path. */
+struct RowRules {
+  double nearest = 0.0; /**< metres from the middle of the road, left positive */
+  double farthest = 0.0;
+  double least_gap = 0.0; /**< between one and the next along the path */
+  double most_gap = 0.0;
+  double road_clearance = 0.0;
+  double drive_clearance = 0.0;
+  double plot_clearance = 0.0;
+  double half_length = 0.0; /**< along the path, as far as the drive has to be clear */
+};
+
+/** Places things beside the path where nothing else is. */
+class Rows {
 public:
-  Row(TownParts& parts, const TownPath& path, std::uint64_t seed, std::uint64_t number)
-      : parts_(parts), path_(path), random_(seed, number)
+  Rows(TownParts& parts,
+       const TownPath& path,
+       const TownPlots& plots,
+       std::uint64_t seed)
+      : parts_(parts), path_(path), plots_(plots), seed_(seed)
   {
   }
 
-  /** Things \a make builds at gaps between \a least and \a most metres. */
+  /** A row of what \a make builds. */
   template <typename Make>
   void
-  place(double lateral,
-        double least,
-        double most,
-        double road_clearance,
-        double drive_clearance,
-        const Make& make)
+  place(const RowRules& rules, const Make& make)
   {
+    CounterRandom random(seed_, number_++);
     const double end = path_.nodes().back().arc;
-    for (double arc = random_.uniform(0.0, most); arc < end;
-         arc += random_.uniform(least, most)) {
-      const Vector3d place = path_.place(arc, lateral);
+    for (double arc = random.uniform(0.0, rules.most_gap); arc < end;
+         arc += random.uniform(rules.least_gap, rules.most_gap)) {
+      const double lateral = random.uniform(rules.nearest, rules.farthest);
+      Vector3d place = path_.place(arc, RoadShape::kMiddle + lateral);
       const Vector2d flat = place.head<2>();
-      if (path_.roadClearance(flat) < road_clearance ||
-          path_.driveClearance(flat) < drive_clearance)
+      if (path_.roadClearance(flat) < rules.road_clearance ||
+          driveClearance(flat, arc, rules.half_length) < rules.drive_clearance ||
+          plots_.clearance(flat, 5.0) < rules.plot_clearance)
         continue;
+      if (std::abs(lateral) > RoadShape::kHalfWidth + RoadShape::kSidewalk)
+        place.z() = path_.groundAt(flat).height;
       parts_.beginObject(uprightFrame(place, path_.direction(arc)));
-      make(parts_, random_);
+      make(parts_, random);
     }
   }
 
 private:
+  /** Of the middle and both ends of a thing along the path. */
+  double
+  driveClearance(const Vector2d& place, double arc, double half_length) const
+  {
+    const Vector2d reach = half_length * path_.direction(arc);
+    return std::min({path_.driveClearance(place - reach),
+                     path_.driveClearance(place),
+                     path_.driveClearance(place + reach)});
+  }
+
   TownParts& parts_;
   const TownPath& path_;
-  CounterRandom random_;
+  const TownPlots& plots_;
+  std::uint64_t seed_;
+  std::uint64_t number_ = 10;
 };
 
 void
-addHedge(TownParts& parts, CounterRandom& random)
+addStreetSide(Rows& rows, double side)
 {
-  addLeaves(parts, {0.0, 0.0, 0.6}, {1.8, 0.5, 0.8}, 110, random);
+  constexpr double kEdge = RoadShape::kHalfWidth;
+  constexpr double kOnRoad = -2.0; // clearance of what stands on its own road's side
+  const auto at = [&](double lateral) { return side * lateral; };
+  rows.place({at(RoadShape::kParking),
+              at(RoadShape::kParking),
+              5.6,
+              7.5,
+              kOnRoad,
+              2.1,
+              0.0,
+              2.4},
+             [](TownParts& parts, CounterRandom& random) {
+               if (random.chance(0.3))
+                 addCar(parts, SurfaceKind::ParkedCar, random);
+             });
+  rows.place({at(kEdge + 0.4), at(kEdge + 0.4), 14.0, 40.0, 0.2, 2.5, 0.0}, addPole);
+  rows.place({at(kEdge + 2.3), at(kEdge + 3.2), 9.0, 30.0, 2.0, 4.0, 0.8},
+             [](TownParts& parts, CounterRandom& random) {
+               addTree(parts, random.uniform(1.2, 2.4), random);
+             });
+  rows.place({at(kEdge + 2.9), at(kEdge + 2.9), 5.0, 30.0, 2.0, 4.0, 0.6}, addHedge);
+  rows.place({at(kEdge + 4.2), at(kEdge + 6.0), 120.0, 200.0, 3.0, 4.0, 2.0},
+             addPavilion);
+  rows.place({at(kEdge + 8.0), at(kEdge + 55.0), 3.0, 9.0, 4.0, 6.0, 1.5},
+             [](TownParts& parts, CounterRandom& random) {
+               addTree(parts, random.uniform(2.0, 4.0), random);
+             });
 }
 
 } // namespace
 
 void
-addFurniture(TownParts& parts, const TownPath& path, std::uint64_t seed)
+addFurniture(TownParts& parts,
+             const TownPath& path,
+             const TownPlots& plots,
+             std::uint64_t seed)
 {
-  constexpr double kMiddle = RoadShape::kMiddle;
-  constexpr double kEdge = RoadShape::kHalfWidth;
-  constexpr double kOnRoad = -2.0; // clearance of what stands on its own road's side
-  const auto car = [](TownParts& p, CounterRandom& random) {
-    if (random.chance(0.4))
-      addCar(p, SurfaceKind::ParkedCar, random);
-  };
-  std::uint64_t number = 10;
-  for (const double side : {1.0, -1.0}) {
-    Row(parts, path, seed, number++)
-        .place(kMiddle + side * RoadShape::kParking, 5.6, 7.5, kOnRoad, 2.1, car);
-    Row(parts, path, seed, number++)
-        .place(kMiddle + side * (kEdge + 0.4), 14.0, 40.0, 0.2, 2.5, addPole);
-    Row(parts, path, seed, number++)
-        .place(kMiddle + side * (kEdge + 2.6), 9.0, 30.0, 2.0, 4.0, addTree);
-    Row(parts, path, seed, number++)
-        .place(kMiddle + side * (kEdge + 2.9), 6.0, 40.0, 2.0, 4.0, addHedge);
-    Row(parts, path, seed, number++)
-        .place(kMiddle + side * (kEdge + 4.2), 120.0, 200.0, 3.0, 4.0, addPavilion);
-  }
+  Rows rows(parts, path, plots, seed);
+  for (const double side : {1.0, -1.0})
+    addStreetSide(rows, side);
 }
 
 } // namespace nurbs

@@ -4,6 +4,7 @@
 #include "town_parts.h"
 #include "town_path.h"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -48,7 +49,7 @@ addRoad(TownParts& parts, const CrossSection& start, const CrossSection& end)
                                    section.at(0.0, kCrown),
                                    section.at(-RoadShape::kHalfWidth, -kCrown)};
   };
-  parts.use(SurfaceKind::Road, 0.22);
+  parts.use(SurfaceKind::Road, 0.42);
   parts.add(RuledPatch{parabola(start), parabola(end)});
 }
 
@@ -70,9 +71,9 @@ addSidewalk(TownParts& parts,
                                    end.at(from, rise_from),
                                    end.at(to, rise_to)));
   };
-  parts.use(SurfaceKind::Curb, 0.4);
+  parts.use(SurfaceKind::Curb, 0.5);
   strip(edge, low, inner, low + kCurb);
-  parts.use(SurfaceKind::Sidewalk, 0.35);
+  parts.use(SurfaceKind::Sidewalk, 0.45);
   strip(inner, low + kCurb, outer, high);
   strip(outer, high, outer, high - kSkirt);
 }
@@ -119,7 +120,7 @@ private:
   std::pair<Vector3d, bool>
   make(const Index& index) const
   {
-    constexpr double kReach = 48.0;
+    constexpr double kReach = 62.0;
     constexpr double kBelowRoad = 0.4;
     constexpr double kRoughness = 0.05;
     const Vector2d place = kCell * Vector2d(static_cast<double>(index.first),
@@ -142,7 +143,7 @@ private:
 void
 addCells(TownParts& parts, const TownPath& path, std::uint64_t seed)
 {
-  constexpr std::int64_t kReach = 12; // cells
+  constexpr std::int64_t kReach = 16; // cells
   GroundLattice lattice(path, seed);
   std::map<GroundLattice::Index, bool> done;
   const auto addCell = [&](std::int64_t x, std::int64_t y) {
@@ -155,7 +156,7 @@ addCells(TownParts& parts, const TownPath& path, std::uint64_t seed)
     if (a.second || b.second || c.second || d.second)
       parts.add(RuledPatch::bilinear(a.first, b.first, c.first, d.first));
   };
-  parts.use(SurfaceKind::Ground, 0.35);
+  parts.use(SurfaceKind::Ground, 0.5);
   for (std::size_t i = 0; i < path.nodes().size(); i += 3) {
     const Vector3d& ground = path.nodes()[i].ground;
     const auto x =
@@ -177,6 +178,55 @@ addGround(TownParts& parts, const TownPath& path, std::uint64_t seed)
   addStreets(parts, path);
   parts.beginObject(Eigen::Isometry3d::Identity());
   addCells(parts, path, seed);
+}
+
+void
+addTunnel(TownParts& parts, const TownPath& path)
+{
+  constexpr double kWall = 3.5;
+  constexpr double kTop = 7.0; // of the vault's middle control point
+  constexpr double kRoom = 3.0;
+  parts.beginObject(Eigen::Isometry3d::Identity());
+  const auto& nodes = path.nodes();
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    if (!path.hasRoad(i))
+      continue;
+    const CrossSection start(nodes[i]);
+    const CrossSection end(nodes[i + 1]);
+    addRoad(parts, start, end);
+    parts.use(SurfaceKind::Wall, 0.4);
+    for (const double edge : {RoadShape::kHalfWidth, -RoadShape::kHalfWidth})
+      if (path.driveClearance(start.at(edge, 0.0).head<2>()) > kRoom &&
+          path.driveClearance(end.at(edge, 0.0).head<2>()) > kRoom)
+        parts.add(RuledPatch::bilinear(start.at(edge, -kCrown),
+                                       start.at(edge, kWall),
+                                       end.at(edge, -kCrown),
+                                       end.at(edge, kWall)));
+    const auto arch = [&](const CrossSection& section) {
+      return std::array<Vector3d, 3>{section.at(RoadShape::kHalfWidth, kWall),
+                                     section.at(0.0, kTop),
+                                     section.at(-RoadShape::kHalfWidth, kWall)};
+    };
+    parts.use(SurfaceKind::Arch, 0.4);
+    parts.add(RuledPatch{arch(start), arch(end)});
+  }
+}
+
+void
+addSquare(TownParts& parts, const TownPath& path)
+{
+  constexpr double kMargin = 200.0;
+  const auto& nodes = path.nodes();
+  Eigen::AlignedBox2d box;
+  for (const TownPath::Node& node : nodes)
+    box.extend(node.ground.head<2>());
+  const Vector2d corner = box.min() - Vector2d::Constant(kMargin);
+  const Vector2d size = box.sizes() + Vector2d::Constant(2.0 * kMargin);
+  parts.beginObject(Eigen::Isometry3d::Identity());
+  parts.use(SurfaceKind::Ground, 0.4);
+  parts.addRectangle({corner.x(), corner.y(), nodes.front().ground.z()},
+                     {size.x(), 0.0, 0.0},
+                     {0.0, size.y(), 0.0});
 }
 
 } // namespace nurbs

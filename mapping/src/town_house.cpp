@@ -78,7 +78,7 @@ addFront(TownParts& parts, const FrontPart& front, double wall_reflectivity)
   if (front.filling_reflectivity > 0.0)
     parts.use(front.filling, front.filling_reflectivity);
   else
-    parts.useGlass(front.filling);
+    parts.useGlass(front.filling, 0.35);
   parts.addRectangle(corner + Vector3d(0.0, front.recess, 0.0), across, up);
 }
 
@@ -195,7 +195,7 @@ addHouse(TownParts& parts, double width, double depth, CounterRandom& random)
   const int bays = std::max(2, static_cast<int>(width / random.uniform(2.6, 3.4)));
   const double bay = width / bays;
   const int door = static_cast<int>(random.uniform(0.0, bays));
-  const double paint = random.uniform(0.35, 0.8);
+  const double paint = random.uniform(0.25, 0.6);
   const bool shutters = random.chance(0.3);
   const double height = kGroundFloor + (floors - 1) * kFloor;
   const auto addWindows =
@@ -220,6 +220,16 @@ addHouse(TownParts& parts, double width, double depth, CounterRandom& random)
   }
   else
     addGableRoof(parts, width, depth, height);
+}
+
+void
+addPlainHouse(TownParts& parts, double width, double depth, CounterRandom& random)
+{
+  const double height = random.uniform(2.5, 12.0);
+  parts.use(SurfaceKind::Wall, random.uniform(0.25, 0.6));
+  addOtherWalls(parts, width, depth, height);
+  parts.addRectangle({0.0, 0.0, 0.0}, {width, 0.0, 0.0}, {0.0, 0.0, height});
+  addGableRoof(parts, width, depth, height);
 }
 
 } // namespace nurbs

@@ -65,7 +65,7 @@ addCar(TownParts& parts, SurfaceKind kind, CounterRandom& random)
   parts.addRectangle(roof_corner,
                      {high.x() - low.x() - 2.0 * kLean, 0.0, 0.0},
                      {0.0, high.y() - low.y() - 0.6 * kLean, 0.0});
-  parts.useGlass(kind);
+  parts.useGlass(kind, 0.5);
   addCabin(parts, low, high, kLean);
 }
 

@@ -12,6 +12,7 @@ namespace pcl {
 namespace nurbs {
 
 class TownPath;
+class TownPlots;
 
 /** Collects the surfaces of a town, object by object, each built in a frame of its own
  * (x to the right along the front, y away from it, z up). */
@@ -34,12 +35,13 @@ public:
     loss_ = 0.0F;
   }
 
-  /** As use(), for window panes. */
+  /** As use(), for panes that give nothing back of a share of the beams: much of a
+   * car, less of a house with curtains. */
   void
-  useGlass(SurfaceKind kind)
+  useGlass(SurfaceKind kind, double loss)
   {
-    use(kind, 0.06);
-    loss_ = 0.85F;
+    use(kind, 0.15);
+    loss_ = static_cast<float>(loss);
   }
 
   void
@@ -99,17 +101,35 @@ uprightFrame(const Eigen::Vector3d& place, const Eigen::Vector2d& x_axis);
 void
 addGround(TownParts& parts, const TownPath& path, std::uint64_t seed);
 
-/** Houses and garden walls on both sides. */
+/** A road between smooth walls under a vault. */
 void
-addBuildings(TownParts& parts, const TownPath& path, std::uint64_t seed);
+addTunnel(TownParts& parts, const TownPath& path);
 
-/** Parked cars, poles, trees, hedges and pavilions. */
+/** A level plane around the path, at the height of its first node. */
 void
-addFurniture(TownParts& parts, const TownPath& path, std::uint64_t seed);
+addSquare(TownParts& parts, const TownPath& path);
+
+/** Houses and garden walls on both sides; their plots are taken. */
+void
+addBuildings(TownParts& parts,
+             const TownPath& path,
+             TownPlots& plots,
+             std::uint64_t seed);
+
+/** Parked cars, poles, trees, hedges and pavilions, where no plot is taken. */
+void
+addFurniture(TownParts& parts,
+             const TownPath& path,
+             const TownPlots& plots,
+             std::uint64_t seed);
 
 /** A house with its front from the origin along x. */
 void
 addHouse(TownParts& parts, double width, double depth, CounterRandom& random);
+
+/** The same with bare walls: a shed, a barn, a block of flats. */
+void
+addPlainHouse(TownParts& parts, double width, double depth, CounterRandom& random);
 
 /** A car that looks along x, the middle of its foot at the origin. */
 void

@@ -14,22 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kEndPiece = 90.0;  // metres beyond the first and the last pose
-constexpr double kSamePlace = 4.5;  // legs nearer than that share their road
-constexpr double kOtherLeg = 25.0;  // metres of path that make another leg
 constexpr double kLeastMove = 0.02; // less is standing still
-
-std::uint64_t
-cellKey(std::int64_t x, std::int64_t y)
-{
-  return static_cast<std::uint64_t>(x) << 32U ^
-         (static_cast<std::uint64_t>(y) & 0xFFFFFFFFU);
-}
-
-std::int64_t
-cellOf(double coordinate)
-{
-  return static_cast<std::int64_t>(std::floor(coordinate / TownPath::kFar));
-}
 
 double
 distanceToSegment(const Vector2d& place, const Vector2d& a, const Vector2d& b)
@@ -55,9 +40,7 @@ TownPath::TownPath(Trajectory& drive, double height)
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     cells_[cellKey(cellOf(nodes_[i].ground.x()), cellOf(nodes_[i].ground.y()))]
         .push_back(static_cast<std::uint32_t>(i));
-  std::vector<int> same_place(nodes_.size(), -1);
-  findLegs(same_place);
-  evenHeights(same_place, drive);
+  evenHeights(drive, height);
 }
 
 /** Nodes at equal steps of horizontal path; the ends go on straight and level. */
@@ -126,69 +109,6 @@ TownPath::setDirections()
   }
 }
 
-/** The node of an earlier leg nearest to each node, -1 without one. */
-void
-TownPath::findLegs(std::vector<int>& same_place)
-{
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    double nearest = kSamePlace;
-    visitNear(nodes_[i].ground.head<2>(), [&](std::size_t other) {
-      const double distance =
-          (nodes_[other].ground - nodes_[i].ground).head<2>().norm();
-      if (nodes_[i].arc - nodes_[other].arc > kOtherLeg && distance < nearest) {
-        nearest = distance;
-        same_place[i] = static_cast<int>(other);
-      }
-    });
-    nodes_[i].owned = same_place[i] < 0;
-  }
-}
-
-/** Corrections of the heights that make legs agree and are smooth along the path, by
- * Gauss-Seidel sweeps; the poses move with the nodes below them. */
-void
-TownPath::evenHeights(const std::vector<int>& same_place, Trajectory& drive)
-{
-  constexpr int kSweeps = 4000;
-  constexpr double kSmooth = 4.0; // against 1 for agreeing with the other leg
-  constexpr double kOriginal = 1e-4;
-  if (std::all_of(same_place.begin(), same_place.end(), [](int j) { return j < 0; }))
-    return;
-  const std::size_t count = nodes_.size();
-  std::vector<std::vector<std::uint32_t>> partners(count);
-  for (std::size_t i = 0; i < count; ++i)
-    if (same_place[i] >= 0) {
-      partners[i].push_back(static_cast<std::uint32_t>(same_place[i]));
-      partners[static_cast<std::size_t>(same_place[i])].push_back(
-          static_cast<std::uint32_t>(i));
-    }
-  std::vector<double> lift(count, 0.0);
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (std::size_t i = 0; i < count; ++i) {
-      double weight = kOriginal;
-      double sum = 0.0;
-      const auto pull = [&](double value, double strength) {
-        sum += strength * value;
-        weight += strength;
-      };
-      if (i > 0)
-        pull(lift[i - 1], kSmooth);
-      if (i + 1 < count)
-        pull(lift[i + 1], kSmooth);
-      for (const std::uint32_t j : partners[i])
-        pull(nodes_[j].ground.z() + lift[j] - nodes_[i].ground.z(), 1.0);
-      lift[i] = sum / weight;
-    }
-  for (std::size_t k = 0; k < drive.size(); ++k) {
-    const auto i = std::min(static_cast<std::size_t>(pose_arc_[k] / kStep), count - 2);
-    const double share = pose_arc_[k] / kStep - static_cast<double>(i);
-    drive[k].T_world_body.translation().z() +=
-        (1.0 - share) * lift[i] + share * lift[i + 1];
-  }
-  for (std::size_t i = 0; i < count; ++i)
-    nodes_[i].ground.z() += lift[i];
-}
-
 Vector3d
 TownPath::place(double arc, double lateral) const
 {
@@ -228,21 +148,6 @@ TownPath::middle(std::size_t node) const
 {
   return nodes_[node].ground.head<2>() +
          RoadShape::kMiddle * leftOf(nodes_[node].along);
-}
-
-template <typename Visit>
-void
-TownPath::visitNear(const Vector2d& place, const Visit& visit) const
-{
-  for (std::int64_t dx = -1; dx <= 1; ++dx)
-    for (std::int64_t dy = -1; dy <= 1; ++dy) {
-      const auto cell =
-          cells_.find(cellKey(cellOf(place.x()) + dx, cellOf(place.y()) + dy));
-      if (cell == cells_.end())
-        continue;
-      for (const std::uint32_t node : cell->second)
-        visit(node);
-    }
 }
 
 double

@@ -5,6 +5,7 @@
 
 #include <pcl/mapping/trajectory.h>
 
+#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -82,7 +83,7 @@ public:
   Ground
   groundAt(const Eigen::Vector2d& place) const;
 
-  static constexpr double kFar = 30.0;
+  static constexpr double kFar = 64.0;
 
 private:
   void
@@ -91,15 +92,39 @@ private:
   void
   setDirections();
 
-  void
-  findLegs(std::vector<int>& same_place);
+  /** A node near one of an earlier leg, and how much their heights have to agree. */
+  struct Meeting {
+    std::size_t node;
+    std::size_t earlier;
+    double weight;
+  };
+
+  std::vector<Meeting>
+  findMeetings();
+
+  std::vector<double>
+  evenedHeights(const std::vector<Meeting>& meetings) const;
 
   void
-  evenHeights(const std::vector<int>& same_place, Trajectory& drive);
+  evenHeights(Trajectory& drive, double height);
 
   Eigen::Vector2d
   middle(std::size_t node) const;
 
+  static std::uint64_t
+  cellKey(std::int64_t x, std::int64_t y)
+  {
+    return static_cast<std::uint64_t>(x) << 32U ^
+           (static_cast<std::uint64_t>(y) & 0xFFFFFFFFU);
+  }
+
+  static std::int64_t
+  cellOf(double coordinate)
+  {
+    return static_cast<std::int64_t>(std::floor(coordinate / kFar));
+  }
+
+  /** Calls \a visit with all nodes within kFar of a place, and some more. */
   template <typename Visit>
   void
   visitNear(const Eigen::Vector2d& place, const Visit& visit) const;
@@ -109,6 +134,21 @@ private:
   std::vector<double> pose_time_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
+
+template <typename Visit>
+void
+TownPath::visitNear(const Eigen::Vector2d& place, const Visit& visit) const
+{
+  for (std::int64_t dx = -1; dx <= 1; ++dx)
+    for (std::int64_t dy = -1; dy <= 1; ++dy) {
+      const auto cell =
+          cells_.find(cellKey(cellOf(place.x()) + dx, cellOf(place.y()) + dy));
+      if (cell == cells_.end())
+        continue;
+      for (const std::uint32_t node : cell->second)
+        visit(node);
+    }
+}
 
 } // namespace nurbs
 } // namespace pcl

@@ -5,11 +5,14 @@
 #include <pcl/surface/nurbs/atomic_file.h>
 
 #include "input_file.h"
+#include "pose_interpolation.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 namespace pcl {
 namespace nurbs {
@@ -72,7 +75,7 @@ private:
           std::from_chars(first, word.data() + word.size(), value);
       if (error != std::errc() || last != word.data() + word.size() ||
           !std::isfinite(value))
-        fail("\"" + std::string(word.substr(0, 20)) + "\" is not a finite number");
+        fail(quotedWord(word) + " is not a finite number");
       numbers.push_back(value);
       at = end;
     }
@@ -229,6 +232,25 @@ writeTumTrajectory(const std::string& path, const Trajectory& trajectory)
                              q.z(),
                              q.w());
       });
+}
+
+StampedPose
+poseAt(const Trajectory& trajectory, double time)
+{
+  if (trajectory.empty())
+    throw std::invalid_argument("poseAt: the trajectory is empty");
+  const auto after = std::lower_bound(
+      trajectory.begin(),
+      trajectory.end(),
+      time,
+      [](const StampedPose& pose, double moment) { return pose.stamp < moment; });
+  if (after == trajectory.begin() || after == trajectory.end())
+    return {time,
+            after == trajectory.end() ? trajectory.back().T_world_body
+                                      : after->T_world_body};
+  if (after->stamp == time)
+    return *after;
+  return {time, interpolatePose(*(after - 1), *after, time)};
 }
 
 std::vector<double>

@@ -33,6 +33,7 @@ MatchPairs::MatchPairs(const VoxelMap& map,
       scan_(scan),
       normals_(normals),
       options_(options),
+      reach_(options.max_distance),
       pairs_(scan.size()),
       terms_(scan.size())
 {
@@ -42,7 +43,7 @@ void
 MatchPairs::lookUp(const Eigen::Vector3d& place, MatchPair& pair) const
 {
   pair.place = place;
-  const auto nearest = map_.nearest(place, options_.max_distance);
+  const auto nearest = map_.nearest(place, reach_);
   pair.found = nearest.has_value();
   if (!pair.found)
     return;

@@ -42,6 +42,13 @@ public:
   void
   update(const Eigen::Isometry3d& pose, bool keep_pairs);
 
+  /** From now on look no farther than this for counterparts. */
+  void
+  setReach(double reach)
+  {
+    reach_ = reach;
+  }
+
   const std::vector<MatchPair>&
   pairs() const
   {
@@ -78,6 +85,7 @@ private:
   const ScanPoints& scan_;
   const ScanPoints& normals_;
   const MatchOptions& options_;
+  double reach_;
   std::vector<MatchPair> pairs_;
   std::vector<PairTerm> terms_;
 };

@@ -15,6 +15,9 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
+/** Cells of the cluster-robust covariance, in voxels. */
+constexpr double kClusterVoxels = 2.0;
+
 struct DescriptionSums {
   TangentMatrix support = TangentMatrix::Zero();
   TangentMatrix curvature = TangentMatrix::Zero();
@@ -22,6 +25,8 @@ struct DescriptionSums {
   double weight = 0.0;
   double weighted_square = 0.0;
   double count = 0.0;
+  double inliers = 0.0;
+  double near = 0.0;
 
   void
   operator+=(const DescriptionSums& other)
@@ -32,8 +37,23 @@ struct DescriptionSums {
     weight += other.weight;
     weighted_square += other.weighted_square;
     count += other.count;
+    inliers += other.inliers;
+    near += other.near;
   }
 };
+
+/** Whether a pair's point lies on the target: near its plane, or near its points where
+ * there is none. */
+bool
+isInlier(const MatchPair& pair, const PairTerm& term, double voxel_size)
+{
+  constexpr double kNearPlane = 0.2;
+  constexpr double kNearPoints = 0.4;
+  if (pair.surface.flat())
+    return term.square <= std::pow(kNearPlane * voxel_size, 2) &&
+           (pair.place - pair.target).squaredNorm() <= voxel_size * voxel_size;
+  return term.residual.squaredNorm() <= std::pow(kNearPoints * voxel_size, 2);
+}
 
 /** Rows and columns of rotations divided by a length. */
 TangentMatrix
@@ -131,7 +151,7 @@ describeMatch(const MatchPairs& pairs,
               const ScanPoints& scan,
               const RobustKernel& kernel,
               const MatchOptions& options,
-              double cluster_size,
+              double voxel_size,
               MatchResult& result)
 {
   const auto add = [&](std::size_t i, DescriptionSums& sums) {
@@ -159,13 +179,19 @@ describeMatch(const MatchPairs& pairs,
     sums.weight += weight;
     sums.weighted_square += weight * term.square;
     sums.count += 1.0;
+    sums.near +=
+        (pair.place - pair.target).squaredNorm() <= voxel_size * voxel_size ? 1.0 : 0.0;
+    sums.inliers += isInlier(pair, term, voxel_size) ? 1.0 : 0.0;
   };
   const auto sums = chunkedSum<DescriptionSums>(scan.size(), options.threads, add);
   result.correspondences = static_cast<std::size_t>(sums.count);
+  result.inlier_share = sums.inliers / static_cast<double>(scan.size());
+  result.near_share = sums.near / static_cast<double>(scan.size());
   result.rmse = std::sqrt(sums.weighted_square / sums.weight);
   result.degeneracy = degeneracyOf(sums, options.min_support);
-  setUncertainty(
-      sums.curvature, gradientScatter(pairs, scan, kernel, cluster_size), result);
+  setUncertainty(sums.curvature,
+                 gradientScatter(pairs, scan, kernel, kClusterVoxels * voxel_size),
+                 result);
 }
 
 } // namespace nurbs

@@ -19,7 +19,7 @@ describeMatch(const MatchPairs& pairs,
               const ScanPoints& scan,
               const RobustKernel& kernel,
               const MatchOptions& options,
-              double cluster_size,
+              double voxel_size,
               MatchResult& result);
 
 } // namespace nurbs

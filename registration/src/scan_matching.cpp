@@ -21,12 +21,12 @@ constexpr std::size_t kMinPairs = 6;
  * target is one exact plane, all that is curved would be an outlier. */
 constexpr double kMinScale = 0.02;
 constexpr double kKernelSigmas = 3.0;
+/** Iterations in which pairs are found anew. */
+constexpr int kMostPairings = 30;
 /** The kernel begins with so many voxels and shrinks by a factor per iteration, so that
  * a rough guess is not taken for outliers (graduated non-convexity). */
 constexpr double kFirstWidth = 1.0;
 constexpr double kShrink = 0.6;
-/** Cells of the cluster-robust covariance, in voxels. */
-constexpr double kClusterVoxels = 2.0;
 
 struct NormalEquations {
   TangentMatrix matrix = TangentMatrix::Zero();
@@ -99,6 +99,18 @@ kernelFor(const MatchPairs& pairs,
   return kernel;
 }
 
+/** How far a pair may be apart and still count for something. */
+double
+reachOf(const RobustKernel& kernel, const MatchOptions& options, double voxel_size)
+{
+  constexpr double kWidths = 4.0; // where Geman and McClure's weight is 1 / 289
+  constexpr double kVoxels = 2.0;
+  if (kernel.type != RobustKernelType::GemanMcClure)
+    return options.max_distance;
+  return std::min(options.max_distance,
+                  std::max(kVoxels * voxel_size, kWidths * kernel.width));
+}
+
 void
 check(const ScanPoints& scan,
       const ScanPoints& normals,
@@ -130,12 +142,12 @@ matchScan(const VoxelMap& map,
   for (; result.iterations < options.max_iterations && !result.converged;
        ++result.iterations) {
     // Pairs that are kept end a cycle between two ways of pairing.
-    const bool keep = 2 * result.iterations > options.max_iterations;
-    pairs.update(result.pose, keep);
+    pairs.update(result.pose, result.iterations >= kMostPairings);
     if (pairs.found() < kMinPairs)
       return result;
     const RobustKernel kernel =
         kernelFor(pairs, options.kernel, size, result.iterations);
+    pairs.setReach(reachOf(kernel, options, size));
     const Tangent step =
         solve(linearize(pairs, scan, kernel, options.threads), options.min_support);
     result.pose = orthonormal(result.pose * exponential(step));
@@ -148,7 +160,7 @@ matchScan(const VoxelMap& map,
                   scan,
                   kernelFor(pairs, options.kernel, size, result.iterations),
                   options,
-                  kClusterVoxels * size,
+                  size,
                   result);
   if (result.degeneracy.unsupported == 6) { // too few pairs, or all with one point
     result.converged = false;

@@ -104,6 +104,19 @@ voxelSubsample(const ScanPoints& points, double voxel_size)
   return kept;
 }
 
+ScanPoints
+thinned(const ScanPoints& points, std::size_t most)
+{
+  if (points.size() <= most)
+    return points;
+  ScanPoints kept;
+  kept.reserve(most);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if ((i + 1) * most / points.size() > i * most / points.size())
+      kept.push_back(points[i]);
+  return kept;
+}
+
 double
 suitableVoxelSize(const ScanPoints& points)
 {

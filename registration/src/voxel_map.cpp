@@ -26,14 +26,12 @@ check(const VoxelMapOptions& options)
     throw std::invalid_argument("VoxelMap: the spacing must not be negative");
 }
 
-/** Square of the distance from a place, relative to the middle cell's centre, to the
- * cell at an offset from it. */
+/** Square of the distance from a place to a cube, relative to whose centre it is. */
 double
-squareToCell(const Eigen::Vector3d& place, const Eigen::Vector3i& offset, double size)
+squareToCube(const Eigen::Vector3d& local, double edge)
 {
-  const Eigen::Array3d from_center =
-      (place - size * offset.cast<double>()).array().abs() - 0.5 * size;
-  return from_center.max(0.0).square().sum();
+  const Eigen::Array3d outside = local.array().abs() - 0.5 * edge;
+  return outside.max(0.0).square().sum();
 }
 
 } // namespace
@@ -77,6 +75,7 @@ VoxelMap::findOrAdd(const Cell& cell)
     return known;
   voxels_.emplace_back();
   voxels_.back().cell = cell;
+  bricks_.insert(cell);
   points_.resize(points_.size() + static_cast<std::size_t>(options_.max_points));
   if (2 * voxels_.size() > table_.size())
     rebuildTable(2 * table_.size());
@@ -138,6 +137,9 @@ VoxelMap::removeFarFrom(const Eigen::Vector3d& place, double radius)
   voxels_.resize(kept);
   points_.resize(kept * stride);
   rebuildTable(table_.size());
+  bricks_.clear();
+  for (const Voxel& voxel : voxels_)
+    bricks_.insert(voxel.cell);
 }
 
 void
@@ -145,6 +147,7 @@ VoxelMap::clear()
 {
   voxels_.clear();
   points_.clear();
+  bricks_.clear();
   rebuildTable(kFirstSlots);
 }
 
@@ -176,13 +179,50 @@ VoxelMap::scanShell(const Cell& middle,
       const bool side = std::abs(x) == ring || std::abs(y) == ring;
       for (int z = -ring; z <= ring; z += side || ring == 0 ? 1 : 2 * ring) {
         const Cell offset(x, y, z);
-        if (squareToCell(local, offset, options_.voxel_size) >= best.square)
+        const double size = options_.voxel_size;
+        if (squareToCube(local - size * offset.cast<double>(), size) >= best.square)
           continue;
         const std::int32_t voxel = find(middle + offset);
         if (voxel >= 0)
           scanVoxel(voxel, place, best);
       }
     }
+}
+
+void
+VoxelMap::scanBrick(const Cell& brick,
+                    const Eigen::Vector3d& place,
+                    Candidate& best) const
+{
+  constexpr int kEdge = VoxelBricks::kEdge;
+  const double size = options_.voxel_size;
+  std::uint64_t mask = bricks_.mask(brick);
+  for (int i = 0; mask != 0; ++i, mask >>= 1U) {
+    if ((mask & 1U) == 0)
+      continue;
+    const Cell cell =
+        kEdge * brick + Cell(i % kEdge, i / kEdge % kEdge, i / (kEdge * kEdge));
+    if (squareToCube(place - center(cell), size) < best.square)
+      scanVoxel(find(cell), place, best);
+  }
+}
+
+void
+VoxelMap::scanBricks(const Eigen::Vector3d& place, Candidate& best) const
+{
+  const double edge = VoxelBricks::kEdge * options_.voxel_size;
+  const Eigen::Array3d reach =
+      Eigen::Array3d::Constant(std::sqrt(static_cast<double>(best.square)));
+  const Cell first = ((place.array() - reach) / edge).floor().cast<int>();
+  const Cell last = ((place.array() + reach) / edge).floor().cast<int>();
+  for (int x = first.x(); x <= last.x(); ++x)
+    for (int y = first.y(); y <= last.y(); ++y)
+      for (int z = first.z(); z <= last.z(); ++z) {
+        const Eigen::Vector3d middle =
+            edge * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
+        if (squareToCube(place - middle, edge) < best.square)
+          scanBrick({x, y, z}, place, best);
+      }
 }
 
 std::optional<Eigen::Vector3d>
@@ -195,13 +235,12 @@ VoxelMap::nearest(const Eigen::Vector3d& place, double max_distance) const
   Candidate best{static_cast<float>(max_distance * max_distance)};
   const Eigen::Array3d local = (place - center(*cell)).array();
   const double margin = 0.5 * options_.voxel_size - local.abs().maxCoeff();
-  const int last = static_cast<int>(std::ceil(max_distance * inverse_size_));
-  for (int ring = 0; ring <= last; ++ring) {
-    const double reach = margin + (ring - 1) * options_.voxel_size;
-    if (ring > 0 && reach > 0.0 && reach * reach >= best.square)
-      break;
-    scanShell(*cell, ring, place, best);
-  }
+  scanShell(*cell, 0, place, best);
+  if (margin * margin < best.square)
+    scanShell(*cell, 1, place, best);
+  const double reach = margin + options_.voxel_size;
+  if (reach * reach < best.square)
+    scanBricks(place, best);
   if (!best.found)
     return std::nullopt;
   return place + best.offset.cast<double>();

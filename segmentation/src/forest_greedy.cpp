@@ -78,9 +78,10 @@ ForestGreedy::enqueueAll(const std::vector<bool>& member)
     const WeightedEdge edge = edges_[number];
     if (!(edge.weight > 0.0F) || !member[edge.a])
       continue;
-    const double key = keyOf(edge, nodes_[edge.a], nodes_[edge.b]);
-    first_gain_ = std::max(first_gain_, key);
-    enqueue(number, key);
+    const double bound = gainBound(edge); // the balance of single nodes is 0
+    if (bound > first_gain_)
+      first_gain_ = std::max(first_gain_, gainOf(edge));
+    enqueue(number, bound);
   }
 }
 
@@ -88,7 +89,7 @@ void
 ForestGreedy::run(std::size_t groups, double lambda)
 {
   groups_wanted_ = groups;
-  // The keys that are known remain right: all groups are single nodes still.
+  // The bounds that are known remain right: all groups are single nodes still.
   scale_ = lambda * total_weight_ / static_cast<double>(members_);
   openBuckets();
   while (!waiting_.empty() && !done()) {
@@ -105,21 +106,35 @@ ForestGreedy::openBuckets()
     openBucket(bucket);
 }
 
-double
+inline double
 ForestGreedy::sizeTerm(std::uint32_t size) const
 {
   return size < kTabulated ? size_terms_[size] : xLogX(size);
 }
 
-double
-ForestGreedy::keyOf(const WeightedEdge& edge,
-                    const Node& group_a,
-                    const Node& group_b) const
+inline double
+ForestGreedy::balanceOf(const Node& group_a, const Node& group_b) const
 {
-  const double balance = sizeTerm(group_a.size) + sizeTerm(group_b.size) -
-                         sizeTerm(group_a.size + group_b.size) + sizeTerm(2);
-  return scaledEdgeGain(nodes_[edge.a].loop, nodes_[edge.b].loop, edge.weight) +
-         scale_ * balance;
+  return scale_ * (sizeTerm(group_a.size) + sizeTerm(group_b.size) -
+                   sizeTerm(group_a.size + group_b.size) + sizeTerm(2));
+}
+
+double
+ForestGreedy::gainOf(const WeightedEdge& edge) const
+{
+  return scaledEdgeGain(nodes_[edge.a].loop, nodes_[edge.b].loop, edge.weight);
+}
+
+/** Hardly more than gainOf(), and no less. */
+inline double
+ForestGreedy::gainBound(const WeightedEdge& edge) const
+{
+  const SelfLoop& a = nodes_[edge.a].loop;
+  const SelfLoop& b = nodes_[edge.b].loop;
+  const double w = edge.weight;
+  const FastXLogX& f = fast_x_log_x_;
+  return a.term - f(a.weight - w) + b.term - f(b.weight - w) - 2.0 * f(w) +
+         FastXLogX::kError * (a.weight + b.weight);
 }
 
 /** Spread the waiting edges over buckets from their highest key to their lowest. */
@@ -137,7 +152,7 @@ ForestGreedy::enqueueWaiting()
     const std::uint32_t b = groupOf(edge.b);
     if (a == b)
       continue;
-    const double key = keyOf(edge, nodes_[a], nodes_[b]);
+    const double key = gainOf(edge) + balanceOf(nodes_[a], nodes_[b]);
     low = std::min(low, key);
     high = std::max(high, key);
     again[kept++] = number;
@@ -146,7 +161,8 @@ ForestGreedy::enqueueWaiting()
   setRange(low, high);
   for (const std::uint32_t number : again) {
     const WeightedEdge edge = edges_[number];
-    enqueue(number, keyOf(edge, nodes_[groupOf(edge.a)], nodes_[groupOf(edge.b)]));
+    enqueue(number,
+            gainOf(edge) + balanceOf(nodes_[groupOf(edge.a)], nodes_[groupOf(edge.b)]));
   }
 }
 
@@ -166,7 +182,7 @@ ForestGreedy::enqueue(std::uint32_t edge, double key)
 }
 
 /** Number of a bucket, or beyond the last where the key is below all buckets. */
-std::size_t
+inline std::size_t
 ForestGreedy::bucketOf(double key) const
 {
   const double place = (highest_ - key) * buckets_per_key_;
@@ -220,6 +236,20 @@ ForestGreedy::considerOpened(std::size_t bucket)
   }
 }
 
+/** Let an edge wait for a later bucket than the open one, if its key belongs there. */
+inline bool
+ForestGreedy::postpone(std::size_t bucket, std::uint32_t edge, double key)
+{
+  const std::size_t place = bucketOf(key);
+  if (place <= bucket)
+    return false;
+  if (place < lists_.size())
+    lists_.push(place, edge);
+  else
+    waiting_.push_back(edge);
+  return true;
+}
+
 /** Put an edge where its key belongs, in the order of this bucket or in a later one. */
 void
 ForestGreedy::consider(std::size_t bucket, std::uint32_t number)
@@ -229,16 +259,14 @@ ForestGreedy::consider(std::size_t bucket, std::uint32_t number)
   const std::uint32_t b = groupOf(edge.b);
   if (a == b)
     return;
-  const double key = keyOf(edge, nodes_[a], nodes_[b]);
-  const std::size_t place = bucketOf(key);
-  if (place >= lists_.size())
-    waiting_.push_back(number);
-  else if (place > bucket)
-    lists_.push(place, number);
-  else {
-    heap_.push_back({key, number, static_cast<std::uint32_t>(selected_.size())});
-    std::push_heap(heap_.begin(), heap_.end(), Later());
-  }
+  const double balance = balanceOf(nodes_[a], nodes_[b]);
+  if (postpone(bucket, number, gainBound(edge) + balance))
+    return;
+  const double key = gainOf(edge) + balance;
+  if (postpone(bucket, number, key))
+    return;
+  heap_.push_back({key, number, static_cast<std::uint32_t>(selected_.size())});
+  std::push_heap(heap_.begin(), heap_.end(), Later());
 }
 
 void

@@ -5,6 +5,7 @@
 
 #include "bucket_lists.h"
 #include "edge_view.h"
+#include "fast_x_log_x.h"
 
 #include <pcl/segmentation/random_walk.h>
 
@@ -22,7 +23,8 @@ namespace nurbs {
  *
  * for groups of m and n nodes of M. Keys only fall, so the queue is a monotone one:
  * edges wait in buckets of their last known keys, and only the bucket whose turn it is
- * has exact keys and an order. */
+ * has exact keys and an order. Where an edge waits it needs no more than an upper bound
+ * of its key, which FastXLogX gives. */
 class ForestGreedy {
 public:
   /** \param[in] edges valid graph
@@ -94,7 +96,13 @@ private:
   };
 
   double
-  keyOf(const WeightedEdge& edge, const Node& group_a, const Node& group_b) const;
+  balanceOf(const Node& group_a, const Node& group_b) const;
+
+  double
+  gainOf(const WeightedEdge& edge) const;
+
+  double
+  gainBound(const WeightedEdge& edge) const;
 
   double
   sizeTerm(std::uint32_t size) const;
@@ -110,6 +118,9 @@ private:
 
   void
   enqueue(std::uint32_t edge, double key);
+
+  bool
+  postpone(std::size_t bucket, std::uint32_t edge, double key);
 
   void
   enqueueWaiting();
@@ -142,6 +153,7 @@ private:
   }
 
   EdgeView edges_;
+  FastXLogX fast_x_log_x_;
   std::size_t members_ = 0;
   std::size_t groups_left_ = 0;
   std::size_t groups_wanted_ = 1;

@@ -22,6 +22,7 @@ class JumpTest {
 public:
   JumpTest(const GridPoints& points,
            const std::vector<float>& inverse_depth,
+           const std::vector<float>& direction_noise,
            const GridGraph& graph,
            const SensorNoise& noise,
            float sigmas,
@@ -30,6 +31,7 @@ public:
         target_(graph.target(direction)),
         source_(graph.source(direction)),
         inverse_depth_(inverse_depth),
+        direction_noise_(direction_noise),
         spacing_(points.geometry, direction),
         noise_(noise),
         sigmas_(sigmas * std::sqrt(6.0F)) // deviation of a second difference
@@ -41,20 +43,46 @@ public:
   {
     const auto j = static_cast<std::size_t>(target_[i]);
     const float near = std::min(depth_[i], depth_[j]);
-    const float tolerance = sigmas_ * static_cast<float>(noise_.sigma(near));
+    const auto sigma = static_cast<float>(noise_.sigma(near));
+    const float sideways = directionNoise(i, j);
+    const float tolerance =
+        sigmas_ * (sideways == 0.0F ? sigma : std::hypot(sigma, sideways));
     const float spacing = spacing_(near);
     float least = std::numeric_limits<float>::infinity();
     float most = 0.0F;
-    for (const float bend : {bendAt(source_[i], i, j), bendAt(target_[j], j, i)})
-      if (bend >= 0.0F) {
-        least = std::min(least, bend);
+    const auto look = [&](std::int32_t before, std::size_t here, std::size_t after) {
+      const float bend = bendAt(before, here, after);
+      if (bend < 0.0F)
+        return;
+      least = std::min(least, bend);
+      if (isLongerStep(before, here, after))
         most = std::max(most, bend);
-      }
+    };
+    look(source_[i], i, j);
+    look(target_[j], j, i);
     return most > kOneSidedSpacings * spacing + tolerance ||
            (std::isfinite(least) && least > kTwoSidedSpacings * spacing + tolerance);
   }
 
 private:
+  /** Of the flatter side: beyond a jump the surface may be steep. */
+  float
+  directionNoise(std::size_t i, std::size_t j) const
+  {
+    return direction_noise_.empty()
+               ? 0.0F
+               : std::min(direction_noise_[i], direction_noise_[j]);
+  }
+
+  /** Whether the depth changes at least as much to the point after as it did from the
+   * one before: what jumps is that edge, not the one before. */
+  bool
+  isLongerStep(std::int32_t before, std::size_t here, std::size_t after) const
+  {
+    const float last = depth_[here] - depth_[static_cast<std::size_t>(before)];
+    return std::abs(depth_[after] - depth_[here]) >= std::abs(last);
+  }
+
   /** How far, in depth, a point is from the line through the two before it; negative
    * when there is no such line. */
   float
@@ -74,6 +102,7 @@ private:
   const std::vector<std::int32_t>& target_;
   const std::vector<std::int32_t>& source_;
   const std::vector<float>& inverse_depth_; // empty where depth itself is linear
+  const std::vector<float>& direction_noise_;
   GridSpacing spacing_;
   SensorNoise noise_;
   float sigmas_;
@@ -84,7 +113,8 @@ private:
 KeptEdges::KeptEdges(const GridPoints& points,
                      const GridGraph& graph,
                      const SensorNoise& noise,
-                     const ConnectedGroupsOptions& options)
+                     const ConnectedGroupsOptions& options,
+                     const std::vector<float>& direction_noise)
     : graph_(graph)
 {
   std::vector<float> inverse_depth;
@@ -97,7 +127,8 @@ KeptEdges::KeptEdges(const GridPoints& points,
   for (int d = 0; d < graph.numDirections(); ++d) {
     std::vector<std::uint8_t>& kept = kept_[static_cast<std::size_t>(d)];
     kept.assign(graph.numCells(), 0);
-    const JumpTest jumps(points, inverse_depth, graph, noise, options.jump_sigmas, d);
+    const JumpTest jumps(
+        points, inverse_depth, direction_noise, graph, noise, options.jump_sigmas, d);
     const std::vector<std::int32_t>& target = graph.target(d);
     const std::vector<float>& weight = graph.weight(d);
     for (std::size_t i = 0; i < kept.size(); ++i)

@@ -15,11 +15,14 @@ namespace nurbs {
 /** Edges of a graph that survive, one flag per direction and cell. */
 class KeptEdges {
 public:
-  /** Keep what is neither of low weight nor over a depth jump. */
+  /** Keep what is neither of low weight nor over a depth jump.
+   * \param[in] direction_noise deviation of each cell's depth that errors of its
+   * direction cause, if known */
   KeptEdges(const GridPoints& points,
             const GridGraph& graph,
             const SensorNoise& noise,
-            const ConnectedGroupsOptions& options);
+            const ConnectedGroupsOptions& options,
+            const std::vector<float>& direction_noise = {});
 
   const GridGraph&
   graph() const
@@ -43,18 +46,28 @@ public:
     return false;
   }
 
+  /** Call visit(neighbour, weight) for every cell a kept edge joins to this one. */
+  template <typename Visit>
+  void
+  forEachEdge(std::size_t cell, const Visit& visit) const
+  {
+    for (int d = 0; d < graph_.numDirections(); ++d) {
+      if (keeps(d, cell))
+        visit(static_cast<std::size_t>(graph_.target(d)[cell]), graph_.weight(d)[cell]);
+      const std::int32_t source = graph_.source(d)[cell];
+      if (source == GridGraph::kNone || !keeps(d, static_cast<std::size_t>(source)))
+        continue;
+      const auto from = static_cast<std::size_t>(source);
+      visit(from, graph_.weight(d)[from]);
+    }
+  }
+
   /** Call visit(neighbour) for every cell a kept edge joins to this one. */
   template <typename Visit>
   void
   forEachNeighbour(std::size_t cell, const Visit& visit) const
   {
-    for (int d = 0; d < graph_.numDirections(); ++d) {
-      if (keeps(d, cell))
-        visit(static_cast<std::size_t>(graph_.target(d)[cell]));
-      const std::int32_t source = graph_.source(d)[cell];
-      if (source != GridGraph::kNone && keeps(d, static_cast<std::size_t>(source)))
-        visit(static_cast<std::size_t>(source));
-    }
+    forEachEdge(cell, [&](std::size_t neighbour, float) { visit(neighbour); });
   }
 
   /** Call visit(cells) for every longest chain of kept edges along a direction. */

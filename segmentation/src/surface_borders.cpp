@@ -114,10 +114,11 @@ CellFacets::isLine(const std::vector<std::size_t>& cells) const
   const auto most = static_cast<std::size_t>(2 * edges_.graph().numDirections());
   std::size_t inner = 0;
   for (const std::size_t cell : cells) {
+    const std::size_t degree = edges_.graph().degree(cell);
     std::size_t same = 0;
     edges_.forEachNeighbour(
         cell, [&](std::size_t next) { same += facet_[next] == facet ? 1 : 0; });
-    inner += 4 * same >= 3 * most ? 1 : 0;
+    inner += 4 * degree >= 3 * most && 4 * same >= 3 * degree ? 1 : 0;
   }
   return kInnerShare * inner < cells.size();
 }

@@ -8,6 +8,7 @@
 #include "surface_borders.h"
 #include "surface_labels.h"
 #include "surface_merging.h"
+#include "surface_stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +38,45 @@ requireValid(const GridPoints& points,
     throw std::invalid_argument("groupSurfaces: there must be a thread");
 }
 
-/** Blocks, coarse to fine, about as wide as high on a surface that faces the sensor. */
-std::vector<BlockSize>
-blockSizes(const GridGeometry& grid)
+/** Share of the cells that hold a point where there are any. */
+double
+fillOf(const GridPoints& points)
 {
-  constexpr int kFine = 4;
+  constexpr int kSide = 8;
+  const int width = points.geometry.width;
+  const int height = points.geometry.height;
+  std::size_t valid = 0;
+  std::size_t all = 0;
+  for (int top = 0; top < height; top += kSide)
+    for (int left = 0; left < width; left += kSide) {
+      std::size_t here = 0;
+      std::size_t cells = 0;
+      for (int row = top; row < std::min(top + kSide, height); ++row)
+        for (int column = left; column < std::min(left + kSide, width); ++column) {
+          here += points.valid(static_cast<std::size_t>(row * width + column)) ? 1 : 0;
+          ++cells;
+        }
+      valid += here;
+      all += here > 0 ? cells : 0;
+    }
+  return static_cast<double>(std::max<std::size_t>(valid, 1)) /
+         static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+/** Blocks, coarse to fine, about as wide as high on a surface that faces the sensor,
+ * and the larger the fewer cells hold a point. */
+std::vector<BlockSize>
+blockSizes(const GridPoints& points)
+{
+  const GridGeometry& grid = points.geometry;
+  const int fine = 4 * static_cast<int>(std::lround(std::sqrt(1.0 / fillOf(points))));
   constexpr double kMostStretch = 4.0;
   const double across = grid.columnSpacing(1.0);
   const double down = grid.rowSpacing(1.0);
   double stretch = across > 0.0 && down > 0.0 ? down / across : 1.0;
   stretch = std::clamp(stretch, 1.0 / kMostStretch, kMostStretch);
-  const int columns = kFine * std::max(1, static_cast<int>(std::lround(stretch)));
-  const int rows = kFine * std::max(1, static_cast<int>(std::lround(1.0 / stretch)));
+  const int columns = fine * std::max(1, static_cast<int>(std::lround(stretch)));
+  const int rows = fine * std::max(1, static_cast<int>(std::lround(1.0 / stretch)));
   constexpr int kManyRows = 160; // fewer are too few for coarse blocks
   if (grid.height < kManyRows)
     return {{columns, rows}};
@@ -113,19 +141,25 @@ facetsOf(const SurfaceCriterion& criterion,
 } // namespace
 
 std::uint32_t
-groupSurfaces(const GridPoints& points,
-              const GridGraph& graph,
-              const SensorNoise& noise,
-              const SurfaceGroupingOptions& options,
-              std::vector<std::uint32_t>& labels,
-              std::vector<SurfaceGroup>* groups)
+groupSurfacesAnd(SurfaceStages& stages,
+                 const GridPoints& points,
+                 const GridGraph& graph,
+                 const SensorNoise& noise,
+                 const SurfaceGroupingOptions& options,
+                 std::vector<std::uint32_t>& labels,
+                 std::vector<SurfaceGroup>* groups)
 {
   requireValid(points, graph, options);
-  const std::vector<BlockSize> sizes = blockSizes(points.geometry);
+  const std::vector<BlockSize> sizes = blockSizes(points);
   ViewChart chart(points, noise, graph, options.threads);
   const double scale = measureNoiseScale(points, chart, sizes.front());
   chart.scaleNoise(scale);
-  const KeptEdges edges(points, graph, scaled(noise, scale), edgeOptions(options));
+  chart.measureDirections(graph, options.threads);
+  const KeptEdges edges(points,
+                        graph,
+                        scaled(noise, scale),
+                        edgeOptions(options),
+                        chart.directionNoise());
   SurfaceNodes nodes(points, edges, chart);
   nodes.addBlocks(sizes.front(), options.fit_sigmas, options.threads);
   const double dispersion =
@@ -139,13 +173,28 @@ groupSurfaces(const GridPoints& points,
   cells.grow(options.point_sigmas);
   dropRedundantFacets(input, edges, cells);
   cells.refine();
-  DisjointSets surfaces(facets.count());
+  const std::uint32_t count = cells.addLeftOver(facets.count());
+  const FacetCells facet_cells{cells.labels(), count, sizes.front()};
+  const std::vector<std::uint32_t> parts =
+      stages.partOfFacet(input, edges, facet_cells);
+  DisjointSets surfaces(count);
   if (options.join_smooth)
-    joinSmooth(input, edges, cells.labels(), sizes.front(), surfaces);
+    joinSmooth(input, edges, facet_cells, parts, surfaces);
   if (options.join_separated)
-    joinSeparated(input, surfaces);
-  surfaces.grow(cells.addLeftOver(facets.count()));
+    joinSeparated(input, facet_cells, surfaces);
   return labelSurfaces(input, cells.labels(), surfaces, labels, groups);
+}
+
+std::uint32_t
+groupSurfaces(const GridPoints& points,
+              const GridGraph& graph,
+              const SensorNoise& noise,
+              const SurfaceGroupingOptions& options,
+              std::vector<std::uint32_t>& labels,
+              std::vector<SurfaceGroup>* groups)
+{
+  SurfaceStages none;
+  return groupSurfacesAnd(none, points, graph, noise, options, labels, groups);
 }
 
 } // namespace nurbs

@@ -3,6 +3,7 @@
 
 #include <pcl/segmentation/view_polynomial.h>
 
+#include "direction_noise.h"
 #include "grid_steps.h"
 
 #include <pcl/segmentation/grid_graph.h>
@@ -20,44 +21,6 @@ namespace {
 constexpr double kSpacingShare = 0.05;
 /** The same as a share of the depth, for grids that know no spacing. */
 constexpr double kDepthShare = 1e-5;
-
-/** Share of the change of depth from cell to cell that directions err by. */
-constexpr double kSlopeShare = 0.1;
-
-/** Mean change of depth to the neighbours on either side, but that on the smoother side
- * where one is beyond an edge. */
-float
-slopeBetween(float before, float after)
-{
-  constexpr float kEdge = 4.0F;
-  const float least = std::min(before, after);
-  const float most = std::max(before, after);
-  return std::isfinite(most) && most < kEdge * least ? 0.5F * (least + most) : least;
-}
-
-/** Change of depth from cell to cell along rows or columns, whichever is more. */
-std::vector<float>
-slopesOf(const GridPoints& points, const GridGraph& graph, int threads)
-{
-  if (graph.numCells() != points.size())
-    throw std::invalid_argument("ViewChart: the graph is not of these points");
-  std::vector<float> slopes(points.size(), 0.0F);
-  for (const int d : {GridGraph::kRight, GridGraph::kDown})
-#pragma omp parallel for num_threads(threads)
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
-      const auto change = [&](std::int32_t next) {
-        return next == GridGraph::kNone
-                   ? std::numeric_limits<float>::infinity()
-                   : std::abs(points.depth[static_cast<std::size_t>(next)] -
-                              points.depth[i]);
-      };
-      const float slope =
-          slopeBetween(change(graph.source(d)[i]), change(graph.target(d)[i]));
-      if (std::isfinite(slope))
-        slopes[i] = std::max(slopes[i], slope);
-    }
-  return slopes;
-}
 
 struct Box {
   Eigen::Vector3d least =
@@ -90,7 +53,7 @@ ViewChart::ViewChart(const GridPoints& points,
       spherical_(points.geometry.projection == GridProjection::spherical),
       frame_(points.geometry.frame),
       choices_(spherical_ ? std::vector<int>{3, 9} : std::vector<int>{3, 6, 10}),
-      slope_(slopesOf(points, graph, threads))
+      direction_noise_(depthNoiseOfDirections(points, graph, {}, threads))
 {
   const GridSpacing spacing(points.geometry, GridGraph::kRight);
   const bool lattice = points.geometry.projection == GridProjection::lattice;
@@ -113,16 +76,33 @@ ViewChart::scaleNoise(double factor)
   noise_scale_ *= factor;
 }
 
+void
+ViewChart::measureDirections(const GridGraph& graph, int threads)
+{
+  const auto scaled = [this](double value) { return noise_scale_ * value; };
+  const DirectionNoise measured = measureDirectionNoise(
+      points_,
+      graph,
+      {scaled(noise_.constant), scaled(noise_.quadratic), noise_.reference});
+  const auto share = [this](double value) {
+    return std::max(kLeastDirectionNoise, value / noise_scale_);
+  };
+  const DirectionNoise granted{share(measured.along_rows),
+                               share(measured.along_columns)};
+  if (std::max(granted.along_rows, granted.along_columns) > kLeastDirectionNoise)
+    direction_noise_ = depthNoiseOfDirections(points_, graph, granted, threads);
+}
+
 double
 ViewChart::sigma(std::size_t cell) const
 {
   const double depth = points_.depth[cell];
   const double sensor = noise_.sigma(depth);
-  const double slope = kSlopeShare * static_cast<double>(slope_[cell]);
+  const double direction = static_cast<double>(direction_noise_[cell]);
   const double shape = kSpacingShare * (spacing_ + spacing_per_depth_ * depth) +
                        kDepthShare * (angular_ ? depth : scale_);
   const double all =
-      noise_scale_ * std::sqrt(sensor * sensor + slope * slope + shape * shape);
+      noise_scale_ * std::sqrt(sensor * sensor + direction * direction + shape * shape);
   return angular_ ? all / (depth * depth) : all;
 }
 
@@ -158,6 +138,16 @@ ViewChart::sample(std::size_t cell) const
           basis(e),
           angular_ ? 1.0 / depth : depth - origin_.z(),
           1.0 / (deviation * deviation)};
+}
+
+Eigen::Vector3d
+ViewChart::position(const ViewPolynomial& surface, const Eigen::Vector3d& e) const
+{
+  const Eigen::Vector3d where = spherical_ ? e.normalized() : e;
+  const double value = surface(basis(where));
+  if (angular_)
+    return where / value;
+  return origin_ + Eigen::Vector3d(scale_ * where.x(), scale_ * where.y(), value);
 }
 
 Eigen::Vector3d

@@ -1,187 +1,203 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Our odometry and its peers on the same scans: accuracy and time per scan.
+"""Our odometry and its peers on the same scans: accuracy, time per scan and memory.
 
-  compare_odometry.py RUN_ODOMETRY SCANS [--poses FILE [--calib FILE]] [--deskew]
-                      [--threads 2] [--peers kiss_icp small_gicp]
+  compare_odometry.py RUN_ODOMETRY [--data FOLDER] [--drives FOLDER] [--threads 2]
+                      [--only NAME ...] [--peers kiss_icp genz_icp small_gicp]
+                      [--scans N] [--report FILE.md] [--keep FOLDER]
 
-RUN_ODOMETRY is the program of that name that the benchmarks' build makes, SCANS a folder
-of KITTI .bin files. The peers come from PyPI (kiss-icp, small-gicp): install them, and
-numpy, in a virtual environment of your own and call this script with its Python. Each
-runs in a process of its own, bound to as many processors as it has threads. Reading the
-files is not timed.
+RUN_ODOMETRY is the program of that name that the benchmarks' build makes, --data the
+folder of public data sets (PCL_NURBS_DATA), --drives one that simulate_scans wrote. The
+peers come from PyPI (kiss-icp, genz-icp, small-gicp), as do evo, numpy, scipy and
+pillow: install them in a virtual environment and call this script with its Python. Each
+method runs in a process of its own, bound to as many processors as it has threads;
+reading the files is not timed.
 """
 import argparse
-import glob
 import json
 import os
 import subprocess
 import sys
 import tempfile
-import time
 
 import numpy as np
 
+import odometry_sequences as sequences
+from odometry_peers import PEERS, REFERENCE_TIME
 
-def read_scan(path):
-    return np.fromfile(path, dtype=np.float32).reshape(-1, 4)[:, :3].astype(np.float64)
-
-
-def read_poses(path):
-    rows = np.loadtxt(path).reshape(-1, 3, 4)
-    last = np.tile([[[0.0, 0.0, 0.0, 1.0]]], (len(rows), 1, 1))
-    return np.concatenate([rows, last], axis=1)
-
-
-def read_calibration(path):
-    for line in open(path, encoding="ascii"):
-        if line.startswith("Tr:"):
-            return np.vstack(
-                [np.array(line.split()[1:], float).reshape(3, 4), [0, 0, 0, 1]])
-    raise SystemExit(f"{path}: no Tr")
-
-
-def times_by_azimuth(points):
-    return 0.5 - np.arctan2(points[:, 1], points[:, 0]) / (2.0 * np.pi)
-
-
-def kiss_icp(args):
-    from kiss_icp.config import KISSConfig
-    from kiss_icp.kiss_icp import KissICP
-
-    config = KISSConfig()
-    config.data.deskew = args.deskew
-    config.data.max_range = 100.0
-    config.mapping.voxel_size = 1.0  # what its pipeline chooses: max_range / 100
-    config.registration.max_num_threads = args.threads
-    odometry = KissICP(config)
-
-    def step(points):
-        times = times_by_azimuth(points) if args.deskew else np.zeros(len(points))
-        odometry.register_frame(points, times)
-        return odometry.last_pose
-
-    return step
-
-
-def small_gicp(args):
-    """Scan to model with its Gaussian voxel map, as in its own odometry example."""
-    import small_gicp as gicp
-
-    state = {"map": gicp.GaussianVoxelMap(1.0), "pose": np.eye(4), "last": np.eye(4)}
-    state["map"].set_lru(horizon=100, clear_cycle=10)
-
-    def step(points):
-        cloud, _ = gicp.preprocess_points(
-            points, downsampling_resolution=0.25, num_threads=args.threads)
-        if state["map"].size() == 0:
-            state["map"].insert(cloud)
-            return state["pose"]
-        guess = state["pose"] @ np.linalg.inv(state["last"]) @ state["pose"]
-        result = gicp.align(state["map"], cloud, guess, max_correspondence_distance=1.0,
-                            num_threads=args.threads)
-        state["last"], state["pose"] = state["pose"], result.T_target_source
-        state["map"].insert(cloud, state["pose"])
-        return state["pose"]
-
-    return step
-
-
-PEERS = {"kiss_icp": kiss_icp, "small_gicp": small_gicp}
-
-
-def run_peer(args):
-    """In a process of its own: trajectory to args.out, times to standard output."""
-    step = PEERS[args.peer](args)
-    wall = cpu = 0.0
-    poses = []
-    for path in sorted(glob.glob(os.path.join(args.scans, "*.bin"))):
-        points = read_scan(path)
-        start, start_cpu = time.perf_counter(), time.process_time()
-        poses.append(np.array(step(points)))
-        wall += time.perf_counter() - start
-        cpu += time.process_time() - start_cpu
-    np.savetxt(args.out, [pose[:3].ravel() for pose in poses])
-    print(json.dumps({"scans": len(poses), "wall_ms": 1e3 * wall / len(poses),
-                      "cpu_ms": 1e3 * cpu / len(poses)}))
+HERE = os.path.dirname(os.path.abspath(__file__))
+TITLES = {"ate_m": "ATE m", "relative_percent": "rel. transl. %",
+          "relative_deg": "rel. rot. deg/100 m", "rpe_m": "per scan m",
+          "cpu_ms": "CPU ms/scan", "wall_ms": "wall ms/scan", "peak_mb": "peak MB",
+          "growth_mb": "growth MB", "lost": "lost"}
 
 
 def run(command, threads):
     processors = ",".join(str(i) for i in range(threads))
     done = subprocess.run(["taskset", "-c", processors, *command],
-                          stdout=subprocess.PIPE, check=True)
+                          stdout=subprocess.PIPE, check=False)
+    if done.returncode:
+        return None
     return json.loads(done.stdout.decode().splitlines()[-1])
 
 
-def rotation_angle(rotation):
-    return np.degrees(np.arccos(np.clip((np.trace(rotation) - 1.0) / 2.0, -1.0, 1.0)))
+def rotation_angles(motions):
+    traces = np.trace(motions[:, :3, :3], axis1=1, axis2=2)
+    return np.degrees(np.arccos(np.clip((traces - 1.0) / 2.0, -1.0, 1.0)))
+
+
+def motion_errors(truth, estimate, first, last):
+    """What is left between true and estimated motions from poses to others."""
+    inverse = np.linalg.inv
+    real = inverse(truth[first]) @ truth[last]
+    ours = inverse(estimate[first]) @ estimate[last]
+    return inverse(real) @ ours
+
+
+def segments(truth):
+    """KITTI's: 100 .. 800 m from every tenth pose; of a shorter drive, eighths of its
+    way from every pose. (first, last, nominal length)"""
+    way = np.concatenate(
+        [[0.0], np.cumsum(np.linalg.norm(np.diff(truth[:, :3, 3], axis=0), axis=1))])
+    long = way[-1] > 150.0
+    unit = 100.0 if long else way[-1] / 8.0
+    found = []
+    for first in range(0, len(truth), 10 if long else 1):
+        for k in range(1, 9):
+            last = int(np.searchsorted(way, way[first] + k * unit, side="right"))
+            if last < len(truth):
+                found.append((first, last, k * unit))
+    return found
+
+
+def ate(truth, estimate):
+    """Root mean square of positions after a rigid alignment, by evo."""
+    from evo.core import metrics
+    from evo.core.trajectory import PosePath3D
+
+    reference = PosePath3D(poses_se3=list(truth))
+    aligned = PosePath3D(poses_se3=list(estimate))
+    aligned.align(reference)
+    ape = metrics.APE(metrics.PoseRelation.translation_part)
+    ape.process_data((reference, aligned))
+    return ape.get_statistic(metrics.StatisticsType.rmse)
 
 
 def errors(truth, estimate):
-    """ATE after a rigid alignment, RPE per scan, and drift over the whole drive."""
-    a, b = truth[:, :3, 3], estimate[:, :3, 3]
-    u, _, vt = np.linalg.svd((a - a.mean(0)).T @ (b - b.mean(0)))
-    turn = u @ np.diag([1.0, 1.0, np.linalg.det(u @ vt)]) @ vt
-    ate = np.sqrt(((a - a.mean(0) - (b - b.mean(0)) @ turn.T) ** 2).sum(1).mean())
-    motion = [np.linalg.inv(np.linalg.inv(truth[i]) @ truth[i + 1])
-              @ np.linalg.inv(estimate[i]) @ estimate[i + 1]
-              for i in range(len(truth) - 1)]
-    rpe = np.sqrt(np.mean([np.sum(m[:3, 3] ** 2) for m in motion]))
-    rpe_rotation = np.sqrt(np.mean([rotation_angle(m[:3, :3]) ** 2 for m in motion]))
-    whole = (np.linalg.inv(np.linalg.inv(truth[0]) @ truth[-1])
-             @ np.linalg.inv(estimate[0]) @ estimate[-1])
-    length = np.linalg.norm(np.diff(a, axis=0), axis=1).sum()
-    return {"ate_m": ate, "rpe_m": rpe, "rpe_deg": rpe_rotation,
-            "end_percent": 100.0 * np.linalg.norm(whole[:3, 3]) / length,
-            "end_deg": rotation_angle(whole[:3, :3])}
+    found = segments(truth)
+    first, last, length = (np.array(column) for column in zip(*found))
+    left = motion_errors(truth, estimate, first, last)
+    step = np.arange(len(truth) - 1)
+    single = motion_errors(truth, estimate, step, step + 1)
+    return {
+        "ate_m": ate(truth, estimate),
+        "relative_percent": 100.0 * np.mean(
+            np.linalg.norm(left[:, :3, 3], axis=1) / length),
+        "relative_deg": 100.0 * np.mean(rotation_angles(left) / length),
+        "rpe_m": np.sqrt(np.mean(np.sum(single[:, :3, 3] ** 2, axis=1)))}
 
 
-def truth_of(args, count):
-    poses = read_poses(args.poses)[:count]
-    if args.calib:
-        tr = read_calibration(args.calib)
-        poses = np.linalg.inv(tr) @ poses @ tr
-    return poses
+def truth_at(folder, moment, count):
+    """True poses at a moment of each scan (0 .. 1); the middle is the stamp."""
+    from scipy.spatial.transform import Rotation, Slerp
+
+    poses = sequences.read_kitti_poses(f"{folder}/poses.txt")
+    offset = moment - 0.5
+    if offset == 0.0:
+        return poses[:count]
+    # Between two poses, and beyond the last one as between the last two.
+    if len(poses) == count:
+        ahead = poses[-1] @ np.linalg.inv(poses[-2]) @ poses[-1]
+        poses = np.concatenate([poses, ahead[None]])
+    at = np.arange(count) + offset
+    moved = np.tile(np.eye(4), (count, 1, 1))
+    turns = Slerp(np.arange(len(poses)), Rotation.from_matrix(poses[:, :3, :3]))
+    moved[:, :3, :3] = turns(at).as_matrix()
+    whole = np.floor(at).astype(int)
+    rest = (at - whole)[:, None]
+    moved[:, :3, 3] = (1.0 - rest) * poses[whole, :3, 3] + rest * poses[whole + 1, :3, 3]
+    return moved
 
 
-def compare(args):
-    rows = {}
-    with tempfile.TemporaryDirectory() as folder:
-        for name in ["ours", *args.peers]:
-            out = os.path.join(folder, name + ".txt")
-            if name == "ours":
-                command = [args.program, args.scans, out, "--threads", str(args.threads)]
-            else:
-                command = [sys.executable, __file__, args.program, args.scans,
-                           "--peer", name, "--out", out, "--threads", str(args.threads)]
-            if args.deskew:
-                command.append("--deskew")
-            rows[name] = run(command, args.threads)
-            if args.poses:
-                estimate = read_poses(out)
-                rows[name].update(errors(truth_of(args, len(estimate)), estimate))
-    columns = list(rows["ours"])
-    columns = [c for c in columns if all(c in row for row in rows.values())]
-    print("| method | " + " | ".join(columns) + " |")
-    print("| --- |" + " --- |" * len(columns))
+def run_method(name, sequence, folder, out, args):
+    if name == "ours":
+        command = [args.program, folder, out]
+    else:
+        command = [sys.executable, os.path.join(HERE, "odometry_peers.py"), name, folder,
+                   out]
+    row = run([*command, "--kind", sequence.kind, "--threads", str(args.threads)],
+              args.threads)
+    if row is None:
+        return None
+    row["growth_mb"] = row["end_mb"] - row["quarter_mb"]
+    if os.path.exists(f"{folder}/poses.txt"):
+        estimate = sequences.read_kitti_poses(out)
+        moment = REFERENCE_TIME.get(name, 0.5) if sequence.deskew else 0.5
+        row.update(errors(truth_at(folder, moment, len(estimate)), estimate))
+    return row
+
+
+def table(sequence, rows):
+    count = next(row["scans"] for row in rows.values() if row)
+    note = f"; {sequence.note}" if sequence.note else ""
+    lines = [f"**{sequence.name}** ({count:.0f} scans{note})", ""]
+    columns = [c for c in TITLES if any(row and c in row for row in rows.values())]
+    lines.append("| | " + " | ".join(TITLES[c] for c in columns) + " |")
+    lines.append("| --- |" + " --- |" * len(columns))
     for name, row in rows.items():
-        print(f"| {name} | " + " | ".join(f"{row[c]:.4g}" for c in columns) + " |")
+        cells = [f"{row[c]:.4g}" if c in row else "" for c in columns] if row else \
+            ["failed"] + [""] * (len(columns) - 1)
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def keep(args, sequence, name, folder, out):
+    """Trajectories to look at, with the truth beside them."""
+    os.makedirs(args.keep, exist_ok=True)
+    stem = os.path.join(args.keep, sequence.name)
+    poses = {name: out, "truth": f"{folder}/poses.txt"}
+    for which, path in poses.items():
+        if os.path.exists(path):
+            sequences.write_kitti_poses(f"{stem}_{which}.txt",
+                                        sequences.read_kitti_poses(path))
+
+
+def compare(sequence, args):
+    rows = {}
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = os.path.join(scratch, "scans")
+        sequences.prepare(sequence, folder, args.scans)
+        for name in ["ours", *args.peers]:
+            out = os.path.join(scratch, name + ".txt")
+            rows[name] = run_method(name, sequence, folder, out, args)
+            if args.keep and rows[name]:
+                keep(args, sequence, name, folder, out)
+    return table(sequence, rows)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("scans")
-    parser.add_argument("--poses")
-    parser.add_argument("--calib")
-    parser.add_argument("--deskew", action="store_true")
+    parser.add_argument("--data", default=os.environ.get("PCL_NURBS_DATA"))
+    parser.add_argument("--drives")
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--only", nargs="*")
     parser.add_argument("--peers", nargs="*", default=list(PEERS), choices=list(PEERS))
-    parser.add_argument("--peer", choices=list(PEERS), help=argparse.SUPPRESS)
-    parser.add_argument("--out", help=argparse.SUPPRESS)
+    parser.add_argument("--scans", type=int)
+    parser.add_argument("--report")
+    parser.add_argument("--keep")
     args = parser.parse_args()
-    (run_peer if args.peer else compare)(args)
+    found = sequences.real_sequences(args.data) if args.data else []
+    found += sequences.simulated_sequences(args.drives) if args.drives else []
+    tables = []
+    for sequence in found:
+        if not args.only or sequence.name in args.only:
+            tables.append(compare(sequence, args))
+            print(tables[-1], flush=True)
+    if args.report:
+        with open(args.report, "w", encoding="utf-8") as file:
+            file.write("\n".join(tables))
 
 
 if __name__ == "__main__":

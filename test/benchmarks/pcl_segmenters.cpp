@@ -191,28 +191,39 @@ euclidean(double tolerance)
 } // namespace
 
 std::vector<Method>
-pclMethods()
+pclMethods(SceneScale scale)
 {
+  const bool street = scale == SceneScale::Street;
+  const auto chosen = [street](const std::vector<Setting>& room,
+                               const std::vector<Setting>& outside) {
+    return street ? outside : room;
+  };
   return {{"OrganizedMultiPlane",
-           {multiPlane(2, 0.01),
-            multiPlane(3, 0.02),
-            multiPlane(6, 0.02),
-            multiPlane(6, 0.05)}},
+           chosen({multiPlane(2, 0.01),
+                   multiPlane(3, 0.02),
+                   multiPlane(6, 0.02),
+                   multiPlane(6, 0.05)},
+                  {multiPlane(3, 0.05), multiPlane(6, 0.1), multiPlane(10, 0.2)})},
           {"RegionGrowing",
-           {regionGrowing(30, 3, 0.05),
-            regionGrowing(50, 3, 1.0),
-            regionGrowing(100, 2, 1.0),
-            regionGrowing(100, 4, 1.0)}},
+           chosen({regionGrowing(30, 3, 0.05),
+                   regionGrowing(50, 3, 1.0),
+                   regionGrowing(100, 2, 1.0),
+                   regionGrowing(100, 4, 1.0)},
+                  {regionGrowing(30, 3, 0.05), regionGrowing(50, 6, 1.0)})},
           {"VCCS",
-           {supervoxels(0.006, 0.05, -1),
-            supervoxels(0.01, 0.1, -1),
-            supervoxels(0.02, 0.2, -1)}},
+           chosen({supervoxels(0.006, 0.05, -1),
+                   supervoxels(0.01, 0.1, -1),
+                   supervoxels(0.02, 0.2, -1)},
+                  {supervoxels(0.05, 0.5, -1), supervoxels(0.1, 1.0, -1)})},
           {"VCCS + LCCP",
-           {supervoxels(0.006, 0.02, 10),
-            supervoxels(0.006, 0.04, 10),
-            supervoxels(0.01, 0.06, 10),
-            supervoxels(0.02, 0.12, 10)}},
-          {"EuclideanClusters", {euclidean(0.006), euclidean(0.01), euclidean(0.02)}}};
+           chosen({supervoxels(0.006, 0.02, 10),
+                   supervoxels(0.006, 0.04, 10),
+                   supervoxels(0.01, 0.06, 10),
+                   supervoxels(0.02, 0.12, 10)},
+                  {supervoxels(0.05, 0.3, 10), supervoxels(0.1, 0.6, 10)})},
+          {"EuclideanClusters",
+           chosen({euclidean(0.006), euclidean(0.01), euclidean(0.02)},
+                  {euclidean(0.1), euclidean(0.3), euclidean(0.6)})}};
 }
 
 } // namespace bench

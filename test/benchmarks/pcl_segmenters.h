@@ -32,10 +32,13 @@ struct Method {
   std::vector<Setting> settings;
 };
 
+/** How large things are, which PCL's parameters depend on. */
+enum class SceneScale { Room, Street };
+
 /** PCL's own: OrganizedMultiPlaneSegmentation, RegionGrowing, SupervoxelClustering,
  * the same with LCCPSegmentation, EuclideanClusterExtraction. */
 std::vector<Method>
-pclMethods();
+pclMethods(SceneScale scale);
 
 } // namespace bench
 } // namespace nurbs

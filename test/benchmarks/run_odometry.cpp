@@ -2,96 +2,147 @@
 // Copyright (c) 2026, the PCL-NURBS authors
 
 //
-// Odometry over a folder of .bin scans or 16-bit depth images, for
-// compare_odometry.py: writes a KITTI trajectory in the sensor's frame and prints the
-// time per scan, reading not counted.
+// Odometry over a prepared sequence (see odometry_sequences.py), for
+// compare_odometry.py: writes a KITTI trajectory in the sensor's frame and prints time
+// per scan and memory as a line of JSON; reading is not timed.
 //
-//   run_odometry FOLDER OUT.txt [--threads N] [--deskew] [--rgbd fx,fy,cx,cy,scale]
+//   run_odometry FOLDER OUT.txt [--kind lidar|rgbd] [--threads N] [--log FILE]
 
-#include <pcl/mapping/cloud_reader.h>
 #include <pcl/mapping/stop_watch.h>
 #include <pcl/mapping/trajectory.h>
 #include <pcl/registration/scan_odometry.h>
-#include <pcl/registration/scan_preprocessing.h>
 
 #include <boost/program_options.hpp>
 
 #include <algorithm>
-#include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 namespace {
 
 using namespace pcl::nurbs;
+namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
-struct Study {
-  OdometryOptions odometry;
-  CloudReadOptions reading;
-  bool deskew = false;
+std::vector<float>
+readFloats(const fs::path& path)
+{
+  std::vector<float> numbers(fs::file_size(path) / sizeof(float));
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(numbers.data()),
+            static_cast<std::streamsize>(numbers.size() * sizeof(float)));
+  return numbers;
+}
+
+struct TimedScan {
+  ScanPoints points;
+  std::vector<float> times; // 0 .. 1
 };
 
-std::vector<std::filesystem::path>
-scansIn(const std::filesystem::path& folder)
+TimedScan
+readScan(const fs::path& path)
 {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".bin" || entry.path().extension() == ".png")
-      files.push_back(entry.path());
+  constexpr std::size_t kColumns = 4;
+  constexpr float kTurn = 0.1F; // seconds; the stamp is in the middle
+  TimedScan scan;
+  const std::vector<float> rows = readFloats(path);
+  for (std::size_t i = 0; i + kColumns <= rows.size(); i += kColumns)
+    scan.points.emplace_back(rows[i], rows[i + 1], rows[i + 2]);
+  const fs::path times =
+      path.parent_path().parent_path() / "point_times" / path.filename();
+  if (fs::exists(times))
+    for (const float seconds : readFloats(times))
+      scan.times.push_back(seconds / kTurn + 0.5F);
+  return scan;
+}
+
+std::vector<fs::path>
+scansIn(const fs::path& folder)
+{
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder / "velodyne"))
+    files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
 
-void
-run(const Study& study, const std::string& folder, const std::string& out)
+/** VmRSS or VmHWM; getrusage() would count what the caller had before exec. */
+double
+memoryMegabytes(const std::string& what)
 {
-  ScanOdometry odometry(study.odometry);
-  Trajectory trajectory;
-  double wall = 0.0;
-  double cpu = 0.0;
-  int lost = 0;
-  double iterations = 0.0;
-  for (const auto& file : scansIn(folder)) {
-    const ScanPoints points =
-        finitePoints(*readCloud(file.string(), study.reading).cloud);
-    const std::vector<float> times =
-        study.deskew ? timesByAzimuth(points) : std::vector<float>();
-    StopWatch watch;
-    const std::clock_t start = std::clock();
-    const OdometryResult result = odometry.process(points, times);
-    cpu += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    wall += watch.lap();
-    iterations += result.match.iterations;
-    lost += result.tracked ? 0 : 1;
-    trajectory.push_back({static_cast<double>(trajectory.size()), result.pose});
-  }
-  writeKittiTrajectory(out, trajectory);
-  const double scans = static_cast<double>(trajectory.size());
-  std::cout << "{\"scans\": " << scans << ", \"lost\": " << lost
-            << ", \"wall_ms\": " << 1e3 * wall / scans
-            << ", \"cpu_ms\": " << 1e3 * cpu / scans
-            << ", \"iterations\": " << iterations / scans << "}\n";
+  std::ifstream file("/proc/self/status");
+  std::string word;
+  while (file >> word)
+    if (word == what + ":") {
+      double kilobytes = 0.0;
+      file >> kilobytes;
+      return kilobytes / 1024.0;
+    }
+  return 0.0;
 }
 
-/** Camera and scale from "fx,fy,cx,cy,scale". */
+/** One line per scan, to see where it was hard. */
 void
-setCamera(const std::string& numbers, Study& study)
+log(std::ostream& stream, std::size_t scan, const OdometryResult& result, double ms)
 {
-  pcl::PinholeIntrinsics camera;
-  double scale = 0.0;
-  if (std::sscanf(numbers.c_str(),
-                  "%lf,%lf,%lf,%lf,%lf",
-                  &camera.fx,
-                  &camera.fy,
-                  &camera.cx,
-                  &camera.cy,
-                  &scale) != 5)
-    throw po::error("--rgbd needs five numbers");
-  study.reading.intrinsics = camera;
-  study.reading.depth_scale = scale;
-  study.odometry = OdometryOptions::rgbd();
+  stream << scan << " tracked " << result.tracked << " searched " << result.searched << " iterations "
+         << result.match.iterations << " pairs " << result.match.correspondences
+         << " inliers " << result.match.inlier_share << " near " << result.match.near_share << " rmse " << result.match.rmse
+         << " threshold " << result.threshold << " unsupported "
+         << result.match.degeneracy.unsupported << " least "
+         << result.match.degeneracy.support[0] << " cpu_ms " << ms << '\n';
+}
+
+struct Totals {
+  double wall = 0.0;
+  double cpu = 0.0;
+  double iterations = 0.0;
+  double early = 0.0; // megabytes after a quarter of the scans
+  int lost = 0;
+};
+
+void
+print(const Totals& totals, double scans)
+{
+  std::cout << "{\"scans\": " << scans << ", \"lost\": " << totals.lost
+            << ", \"wall_ms\": " << 1e3 * totals.wall / scans
+            << ", \"cpu_ms\": " << 1e3 * totals.cpu / scans
+            << ", \"iterations\": " << totals.iterations / scans
+            << ", \"quarter_mb\": " << totals.early
+            << ", \"end_mb\": " << memoryMegabytes("VmRSS")
+            << ", \"peak_mb\": " << memoryMegabytes("VmHWM") << "}\n";
+}
+
+void
+run(const OdometryOptions& options, const po::variables_map& values)
+{
+  ScanOdometry odometry(options);
+  Trajectory trajectory;
+  Totals totals;
+  std::ofstream lines;
+  if (values.count("log") != 0)
+    lines.open(values["log"].as<std::string>());
+  const std::vector<fs::path> files = scansIn(values["folder"].as<std::string>());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const TimedScan scan = readScan(files[i]);
+    StopWatch watch;
+    const std::clock_t start = std::clock();
+    const OdometryResult result = odometry.process(scan.points, scan.times);
+    const double cpu = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    totals.cpu += cpu;
+    totals.wall += watch.lap();
+    totals.iterations += result.match.iterations;
+    totals.lost += result.tracked ? 0 : 1;
+    if (i == files.size() / 4)
+      totals.early = memoryMegabytes("VmRSS");
+    if (lines.is_open())
+      log(lines, i, result, 1e3 * cpu);
+    trajectory.push_back({static_cast<double>(i), result.pose});
+  }
+  writeKittiTrajectory(values["out"].as<std::string>(), trajectory);
+  print(totals, static_cast<double>(files.size()));
 }
 
 } // namespace
@@ -101,12 +152,11 @@ main(int argc, char** argv)
 try {
   po::options_description visible("run_odometry FOLDER OUT.txt");
   auto add = visible.add_options();
-  add("folder", po::value<std::string>()->required(), "scans");
+  add("folder", po::value<std::string>()->required(), "a prepared sequence");
   add("out", po::value<std::string>()->required(), "trajectory");
+  add("kind", po::value<std::string>()->default_value("lidar"), "lidar or rgbd");
   add("threads", po::value<int>()->default_value(2), "threads");
-  add("vertical-angle", po::value<double>()->default_value(0.0), "degrees");
-  add("rgbd", po::value<std::string>(), "camera fx,fy,cx,cy,scale of depth images");
-  add("deskew", "undo the motion within a scan, times from azimuths");
+  add("log", po::value<std::string>(), "a line per scan");
   po::positional_options_description places;
   places.add("folder", 1).add("out", 1);
   po::variables_map values;
@@ -114,13 +164,11 @@ try {
       po::command_line_parser(argc, argv).options(visible).positional(places).run(),
       values);
   po::notify(values);
-  Study study;
-  if (values.count("rgbd") != 0)
-    setCamera(values["rgbd"].as<std::string>(), study);
-  study.deskew = values.count("deskew") != 0;
-  study.odometry.threads = values["threads"].as<int>();
-  study.odometry.vertical_angle = values["vertical-angle"].as<double>() * M_PI / 180.0;
-  run(study, values["folder"].as<std::string>(), values["out"].as<std::string>());
+  OdometryOptions options = values["kind"].as<std::string>() == "rgbd"
+                                ? OdometryOptions::rgbd()
+                                : OdometryOptions::lidar();
+  options.threads = values["threads"].as<int>();
+  run(options, values);
   return 0;
 } catch (const std::exception& error) {
   std::cerr << "run_odometry: " << error.what() << '\n';

@@ -174,6 +174,43 @@ TEST(PrimitiveTree, equalsBruteForce)
   EXPECT_GT(hits, 1000);
 }
 
+TEST(PrimitiveTree, aFanIsItsRaysOneByOne)
+{
+  CounterRandom random(5);
+  std::vector<Primitive> all;
+  for (int k = 0; k < 400; ++k)
+    for (const Primitive& primitive : randomPrimitives(random, 10.0))
+      all.push_back(primitive);
+  const PrimitiveTree tree(all);
+  int hits = 0;
+  for (int round = 0; round < 200; ++round) {
+    const Eigen::Vector3d origin = randomBeam(random, 10.0).origin;
+    std::vector<Eigen::Vector3d> directions;
+    std::vector<BeamHit> fan;
+    for (int k = 0; k < 1 + round % 70; ++k) { // with and without a full last group
+      const double angle = 0.02 * k + round;
+      directions.emplace_back(round % 5 == 0 ? randomBeam(random, 1.0).direction
+                                             : Eigen::Vector3d(std::cos(angle),
+                                                               0.8 * std::sin(angle),
+                                                               0.6 * std::sin(angle)));
+      fan.push_back({random.uniform(0.0, 60.0), BeamHit::kNothing});
+    }
+    const std::vector<BeamHit> limits = fan;
+    tree.castFan(origin, directions, 0.5, fan);
+    for (std::size_t k = 0; k < fan.size(); ++k) {
+      const BeamHit one = tree.cast({origin, directions[k]}, 0.5, limits[k].distance);
+      ASSERT_EQ(fan[k].distance, one.distance);
+      ASSERT_EQ(fan[k].surface, one.surface);
+      hits += one.surface != BeamHit::kNothing ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hits, 400);
+  std::vector<BeamHit> none;
+  EXPECT_THROW(
+      tree.castFan(Eigen::Vector3d::Zero(), {Eigen::Vector3d::UnitX()}, 0, none),
+      std::invalid_argument);
+}
+
 TEST(PrimitiveTree, emptyAndEqualPrimitives)
 {
   const Beam ray{{0.0, 0.0, 3.0}, {0.0, 0.0, -1.0}};

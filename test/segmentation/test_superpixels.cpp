@@ -47,6 +47,59 @@ INSTANTIATE_TEST_SUITE_P(Graphs,
                                           testing::Values(1U, 2U, 5U, 12U),
                                           testing::Values(0.0, 0.5, 5.0)));
 
+/** Weights are few powers of two, so that ties abound and sums are exact. */
+WeightedGraph
+tiedLattice(std::uint32_t width, std::uint32_t height, unsigned seed, int connectivity)
+{
+  WeightedGraph graph = randomLattice(width, height, seed, connectivity);
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> halvings(0, static_cast<int>(seed % 3));
+  for (WeightedEdge& edge : graph.edges)
+    edge.weight = std::ldexp(1.0F, -halvings(random));
+  return graph;
+}
+
+class TiesAreBroken
+    : public testing::TestWithParam<std::tuple<unsigned, int, std::size_t, double>> {};
+
+TEST_P(TiesAreBroken, byTheFirstEdge)
+{
+  const auto [seed, connectivity, number, balance] = GetParam();
+  const WeightedGraph graph = tiedLattice(17, 12, seed, connectivity);
+  const Superpixels result = entropyRateSuperpixels(graph, {number, balance, 1});
+  EXPECT_EQ(result.edges, closedFormGreedy(graph, number, result.lambda));
+}
+
+TEST(Superpixels, latticeOfEitherKindEqualsTheClosedFormsEdgeForEdge)
+{
+  for (const int connectivity : {4, 8})
+    for (const std::size_t number : {1, 50}) {
+      const WeightedGraph graph = randomLattice(50, 36, 5, connectivity);
+      const Superpixels result = entropyRateSuperpixels(graph, {number, 0.5, 1});
+      EXPECT_EQ(result.edges, closedFormGreedy(graph, number, result.lambda));
+    }
+}
+
+TEST(Superpixels, largeLatticeWithFourNeighboursReachesTheObjectiveOfALazyHeap)
+{
+  // Of the last two edges of a node both gain the same there, so that rounding decides.
+  const WeightedGraph graph = randomLattice(240, 160, 7, 4);
+  for (const std::size_t number : {1, 40, 700}) {
+    const Superpixels result = entropyRateSuperpixels(graph, {number, 0.5, 1});
+    const auto expected = LazyHeap(graph, result.lambda).run(number);
+    EXPECT_NEAR(result.objective(),
+                objectiveOf(graph, flags(graph, expected), result.lambda),
+                1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lattices,
+                         TiesAreBroken,
+                         testing::Combine(testing::Range(0U, 6U),
+                                          testing::Values(4, 8),
+                                          testing::Values(1U, 9U, 60U),
+                                          testing::Values(0.0, 0.5, 5.0)));
+
 TEST(Superpixels, largeLatticeEqualsALazyHeap)
 {
   for (const std::size_t number : {1, 40, 700}) {

@@ -32,10 +32,13 @@ randomGraph(std::uint32_t nodes, double chords, unsigned seed)
   return graph;
 }
 
-/** Lattice with 8 neighbours whose weights are low across some lines, as borders of
- * surfaces, and random everywhere. */
+/** Lattice with 4 or 8 neighbours whose weights are low across some lines, as borders
+ * of surfaces, and random everywhere. */
 inline WeightedGraph
-randomLattice(std::uint32_t width, std::uint32_t height, unsigned seed)
+randomLattice(std::uint32_t width,
+              std::uint32_t height,
+              unsigned seed,
+              int connectivity = 8)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> share(0.3F, 1.0F);
@@ -49,7 +52,7 @@ randomLattice(std::uint32_t width, std::uint32_t height, unsigned seed)
       for (const auto& [right, down] : {std::pair(1, 0), {0, 1}, {1, 1}, {-1, 1}}) {
         const std::uint32_t c = column + static_cast<std::uint32_t>(right);
         const std::uint32_t r = row + static_cast<std::uint32_t>(down);
-        if (c >= width || r >= height)
+        if (c >= width || r >= height || (connectivity == 4 && right != 0 && down != 0))
           continue;
         const float contrast = region(column, row) == region(c, r) ? 1.0F : 0.05F;
         graph.edges.push_back(

@@ -9,6 +9,7 @@ import subprocess
 import time
 import unittest
 
+from interruption import wait_until_caught
 from tool import ToolTest, pcd, ply, wave
 
 FORMATS = ("nurbs", "json", "obj", "ply", "png")
@@ -91,16 +92,6 @@ class CannotWrite(ToolTest):
         os.symlink("/dev/null", self.folder / "null.nurbs")
         self.succeed("in.pcd", "null.nurbs", "--report", "r.json")
         self.assertTrue((self.folder / "null.nurbs").is_symlink())
-
-
-def wait_until_caught(pid, number):
-    """Before a program handles a signal, as slow ones may still be loading, it is killed."""
-    while True:
-        with open(f"/proc/{pid}/status", encoding="ascii") as status:
-            caught = next(line for line in status if line.startswith("SigCgt:"))
-        if int(caught.split()[1], 16) >> (number - 1) & 1:
-            return
-        time.sleep(0.01)
 
 
 class Interrupted(ToolTest):

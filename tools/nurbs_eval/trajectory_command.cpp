@@ -3,10 +3,9 @@
 
 #include "trajectory_command.h"
 
-#include "line_plot.h"
+#include "path_plot.h"
 #include "run_tool.h"
 #include "trajectory_settings.h"
-#include "view_axes.h"
 
 #include <pcl/mapping/cloud_reader.h>
 #include <pcl/mapping/trajectory_metrics.h>
@@ -128,28 +127,6 @@ print(const TrajectorySettings& settings, const nlohmann::json& report)
     std::printf("KITTI: the drive is shorter than 100 m\n");
 }
 
-/** Positions seen along the axis of least extent, so that a drive is seen from above in
- * a camera's frame as in a map's. */
-LinePlot
-pathPlot(const Evaluation& evaluation)
-{
-  Eigen::AlignedBox3d box;
-  for (const StampedPose& pose : evaluation.pair.reference)
-    box.extend(pose.T_world_body.translation());
-  const ViewAxes axes = axesAcrossLeastExtent(box);
-  LinePlot plot{"Paths", axes.across_label, axes.up_label, true, {}};
-  const auto add = [&](const char* name, const Trajectory& trajectory) {
-    plot.lines.push_back({name, {}});
-    for (const StampedPose& pose : trajectory)
-      plot.lines.back().points.emplace_back(
-          pose.T_world_body.translation()(axes.across),
-          pose.T_world_body.translation()(axes.up));
-  };
-  add("reference", evaluation.pair.reference);
-  add("estimate", evaluation.pair.estimate);
-  return plot;
-}
-
 LinePlot
 errorPlot(const Evaluation& evaluation)
 {
@@ -187,7 +164,9 @@ writePlots(const std::filesystem::path& folder, const Evaluation& evaluation)
   if (error)
     throw ToolError(kCannotWrite,
                     "cannot write " + folder.string() + ": " + error.message());
-  writePlot((folder / "path.png").string(), pathPlot(evaluation));
+  writePlot((folder / "path.png").string(),
+            pathPlot({{"reference", evaluation.pair.reference},
+                      {"estimate", evaluation.pair.estimate}}));
   writePlot((folder / "errors.png").string(), errorPlot(evaluation));
   if (!evaluation.segments.empty())
     writePlot((folder / "segments.png").string(), segmentPlot(evaluation));

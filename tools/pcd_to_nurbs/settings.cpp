@@ -70,7 +70,7 @@ addFitOptions(Settings& settings, RawOptions& raw, po::options_description& desc
       po::value(&fit.tolerance)->default_value(0.0, "0"),
       "a point belongs to a surface within this distance, metres; 0: three standard "
       "deviations of its noise")("min-segment",
-                                 po::value(&settings.min_segment)->default_value(100),
+                                 po::value(&settings.min_segment)->default_value(60),
                                  "smaller segments are dropped, points")(
       "min-patch",
       po::value(&fit.min_patch_points)->default_value(fit.min_patch_points),

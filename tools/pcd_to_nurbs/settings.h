@@ -37,7 +37,7 @@ struct Settings {
       pcl::CloudOrganizer<pcl::PointXYZ>::AUTO;
   std::optional<pcl::SensorNoise> noise;
   SegmentationChoice segmentation = SegmentationChoice::Surfaces;
-  int min_segment = 100;
+  int min_segment = 60;
   pcl::nurbs::ReconstructionOptions reconstruction;
   SurfaceOutputOptions output;
   PictureOptions picture;

@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <filesystem>
+#include <vector>
 
 namespace pcl_nurbs_tools {
 namespace {
@@ -26,6 +28,34 @@ struct Outcome {
   double build_seconds = 0.0;
   double scan_seconds = 0.0;
 };
+
+/** Scans of another run beside those to come would belong to other poses. */
+void
+clearScans(const SimulationSettings& settings)
+{
+  using std::filesystem::path;
+  const bool camera = settings.sensor == "kinect";
+  const path root = settings.out;
+  const path sequence = root / "sequences" / settings.writing.sequence;
+  const std::vector<path> folders = camera
+                                        ? std::vector<path>{root / "depth"}
+                                        : std::vector<path>{sequence / "velodyne",
+                                                            sequence / "labels",
+                                                            sequence / "point_times"};
+  for (const path& folder : folders) {
+    std::error_code error;
+    if (!std::filesystem::exists(folder, error) ||
+        std::filesystem::is_empty(folder, error) || error)
+      continue;
+    if (!settings.overwrite)
+      throw ToolError(kUsage,
+                      folder.string() + " holds scans already (see --overwrite)");
+    std::filesystem::remove_all(folder, error);
+    if (error)
+      throw ToolError(kCannotWrite,
+                      "cannot write " + folder.string() + ": " + error.message());
+  }
+}
 
 std::size_t
 write(const SimulatedDrive& drive, SimulationSettings& settings)
@@ -85,6 +115,7 @@ simulate(int argc, char** argv)
   SimulationSettings settings;
   if (!parseSettings(argc, argv, settings))
     return;
+  clearScans(settings);
   StopWatch watch;
   const SimulatedDrive drive(
       driveOf(settings), sensorOf(settings), settings.simulation);

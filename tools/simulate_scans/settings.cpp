@@ -6,30 +6,25 @@
 #include "command_line.h"
 #include "run_tool.h"
 
-#include <pcl/mapping/kitti_calibration.h>
-
 #include <boost/program_options.hpp>
-
-#include <cmath>
-#include <map>
 
 namespace pcl_nurbs_tools {
 namespace {
 
 namespace po = boost::program_options;
-using namespace pcl::nurbs;
-
-constexpr double kDegree = M_PI / 180.0;
 
 void
 describeDrive(SimulationSettings& s, po::options_description& description)
 {
-  description.add_options()("circuit",
-                            po::value(&s.circuit)->default_value("block"),
-                            "built-in closed drive: block, oval, eight")(
+  description.add_options()("scene",
+                            po::value(&s.scene)->default_value("town"),
+                            "what is built around the drive: town, tunnel, square")(
+      "circuit",
+      po::value(&s.circuit)->default_value("block"),
+      "built-in drive: block, oval, eight, line, standstill")(
       "size",
       po::value(&s.size)->default_value(120.0),
-      "extent of the circuit, metres")(
+      "extent of the circuit, length of the line, metres")(
       "speed", po::value(&s.speed)->default_value(8.0), "on the circuit, m/s")(
       "trajectory",
       po::value(&s.trajectory)->value_name("FILE"),
@@ -57,7 +52,7 @@ describeSensor(SimulationSettings& s, po::options_description& description)
       po::value(&s.columns)->default_value(0),
       "beams of a laser per turn and row; 0 for the sensor's own")(
       "height",
-      po::value(&s.simulation.town.sensor_height)->default_value(1.73, "1.73"),
+      po::value(&s.sensor_height)->default_value(1.73, "1.73"),
       "of the poses above the road, metres")(
       "yaw",
       po::value(&s.yaw)->default_value(-70.0, "-70"),
@@ -79,12 +74,15 @@ describeOutput(SimulationSettings& s, po::options_description& description)
       "sequence",
       po::value(&s.writing.sequence)->default_value("00"),
       "number of the sequence in KITTI's layout")(
-      "first", po::value(&s.writing.first)->default_value(0), "first scan")(
-      "scans", po::value(&s.writing.count)->default_value(0), "scans; 0 for all")(
+      "first", po::value(&s.first)->default_value(0), "first scan")(
+      "scans", po::value(&s.scans)->default_value(0), "scans; 0 for all")(
       "seed", po::value(&s.simulation.town.seed)->default_value(1), "of the town")(
       "labels",
       po::bool_switch(&s.writing.labels),
-      "write kind and object of every point to labels/");
+      "write kind and object of every point to labels/")(
+      "overwrite",
+      po::bool_switch(&s.overwrite),
+      "remove the scans of an earlier run there, which is refused otherwise");
 }
 
 void
@@ -92,41 +90,11 @@ requireSensible(const SimulationSettings& s)
 {
   if (s.out.empty())
     throw ToolError(kUsage, "--out is needed (see --help)");
-  if (s.frame != "camera" && s.frame != "vehicle")
-    throw ToolError(kUsage, "--frame must be camera or vehicle");
-  if (s.columns < 0 || s.columns > 65536)
-    throw ToolError(kUsage, "--columns must be 0 to 65536");
-  if (s.trajectory.empty() && !(s.times.empty() && s.calib.empty()))
-    throw ToolError(kUsage, "--times and --calib go with --trajectory");
-  if (!std::isfinite(s.yaw) || !std::isfinite(s.right))
-    throw ToolError(kUsage, "--yaw and --right must be finite");
+  if (s.first < 0 || s.scans < 0)
+    throw ToolError(kUsage, "--first and --scans must not be negative");
   const std::string& sequence = s.writing.sequence;
   if (sequence.empty() || sequence.find('/') != std::string::npos || sequence[0] == '.')
     throw ToolError(kUsage, "--sequence must be the name of a folder");
-}
-
-/** Poses by their number get the times of a sensor that never stops. */
-void
-spreadTimes(Trajectory& drive, double period)
-{
-  for (std::size_t k = 0; k < drive.size(); ++k)
-    if (drive[k].stamp != static_cast<double>(k))
-      return;
-  for (StampedPose& pose : drive)
-    pose.stamp *= period;
-}
-
-/** A camera's axes beside the path. */
-Eigen::Isometry3d
-cameraMount(const SimulationSettings& s)
-{
-  Eigen::Matrix3d axes;
-  axes << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
-  Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
-  mount.linear() =
-      Eigen::AngleAxisd(s.yaw * kDegree, Eigen::Vector3d::UnitZ()).matrix() * axes;
-  mount.translation().y() = -s.right;
-  return mount;
 }
 
 } // namespace
@@ -148,63 +116,20 @@ parseSettings(int argc, char** argv, SimulationSettings& settings)
       "simulate_scans --out FOLDER\n"
       "Drive through a made-up town of exact surfaces and write what a laser\n"
       "or a depth camera sees, with the true poses.\n",
-      ""};
+      "\nExit codes: 0 done, 1 wrong usage, 2 unusable input, 4 an output could not "
+      "be\n"
+      "written, 130 interrupted; scans finished before 4 and 130 are a valid drive.\n"};
   if (!parseCommandLine(argc, argv, texts, options, nullptr))
     return false;
   requireSensible(settings);
+  settings.writing.first = static_cast<std::size_t>(settings.first);
+  settings.writing.count = static_cast<std::size_t>(settings.scans);
   settings.simulation.threads = resolveThreads(settings.common.threads);
   settings.simulation.noise = !settings.exact;
-  if (settings.sensor == "kinect")
-    settings.simulation.T_body_sensor = cameraMount(settings);
+  settings.simulation.town.sensor_height = settings.sensor_height;
+  settings.simulation.town.scene = sceneOf(settings);
+  settings.simulation.T_body_sensor = mountOf(settings);
   return true;
-}
-
-Trajectory
-driveOf(const SimulationSettings& settings)
-{
-  if (settings.trajectory.empty()) {
-    static const std::map<std::string, CircuitShape> shapes = {
-        {"block", CircuitShape::Block},
-        {"oval", CircuitShape::Oval},
-        {"eight", CircuitShape::Eight}};
-    const auto shape = shapes.find(settings.circuit);
-    if (shape == shapes.end())
-      throw ToolError(kUsage, "--circuit must be block, oval or eight");
-    CircuitOptions options;
-    options.shape = shape->second;
-    options.size = settings.size;
-    options.speed = settings.speed;
-    options.height = settings.simulation.town.sensor_height;
-    return makeCircuit(options);
-  }
-  Trajectory drive = readTrajectory(settings.trajectory, settings.times);
-  if (settings.times.empty())
-    spreadTimes(drive, 0.1);
-  if (settings.frame == "camera") {
-    const Eigen::Isometry3d T_camera_laser = settings.calib.empty()
-                                                 ? nominalKittiCalibration()
-                                                 : readKittiCalibration(settings.calib);
-    drive = inLaserFrame(drive, T_camera_laser);
-  }
-  return drive;
-}
-
-SimulatedDrive::Sensor
-sensorOf(const SimulationSettings& settings)
-{
-  if (settings.sensor == "kinect")
-    return DepthCameraModel::kinect();
-  static const std::map<std::string, LaserModel (*)()> lasers = {
-      {"hdl64", LaserModel::hdl64},
-      {"hdl32", LaserModel::hdl32},
-      {"vlp16", LaserModel::vlp16}};
-  const auto found = lasers.find(settings.sensor);
-  if (found == lasers.end())
-    throw ToolError(kUsage, "--sensor must be hdl64, hdl32, vlp16 or kinect");
-  LaserModel laser = found->second();
-  if (settings.columns > 0)
-    laser.columns = settings.columns;
-  return laser;
 }
 
 } // namespace pcl_nurbs_tools

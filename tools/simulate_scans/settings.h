@@ -4,30 +4,23 @@
 #pragma once
 
 #include "common_options.h"
+#include "drive_choice.h"
 
-#include <pcl/mapping/simulator/circuits.h>
 #include <pcl/mapping/simulator/drive_writer.h>
 
+#include <cstdint>
 #include <string>
 
 namespace pcl_nurbs_tools {
 
 /** What simulate_scans is asked for. */
-struct SimulationSettings {
+struct SimulationSettings : DriveChoice {
   CommonOptions common;
   std::string out;
-  std::string sensor;
-  std::string circuit;
-  std::string trajectory;
-  std::string times;
-  std::string calib;
-  std::string frame;
-  double size = 0.0;
-  double speed = 0.0;
-  double yaw = 0.0;   /**< of a camera, degrees to the left */
-  double right = 0.0; /**< of a camera beside the path, metres */
-  int columns = 0;    /**< of a laser, 0 for the sensor's own */
+  std::int64_t first = 0; /**< scan */
+  std::int64_t scans = 0; /**< 0 for all */
   bool exact = false;
+  bool overwrite = false; /**< scans of an earlier run are removed */
   pcl::nurbs::SimulationOptions simulation;
   pcl::nurbs::DriveWriteOptions writing;
 };
@@ -36,13 +29,5 @@ struct SimulationSettings {
  * \throws ToolError(kUsage) */
 bool
 parseSettings(int argc, char** argv, SimulationSettings& settings);
-
-/** The drive that was asked for, in a frame with x ahead and z up. */
-pcl::nurbs::Trajectory
-driveOf(const SimulationSettings& settings);
-
-/** The sensor that was asked for. */
-pcl::nurbs::SimulatedDrive::Sensor
-sensorOf(const SimulationSettings& settings);
 
 } // namespace pcl_nurbs_tools

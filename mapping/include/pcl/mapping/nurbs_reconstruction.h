@@ -68,7 +68,8 @@ public:
     noise_ = noise;
   }
 
-  /** \brief Segmentation to use; EntropyRateSegmentation if none is given. */
+  /** \brief Segmentation to use; EntropyRateSegmentation if none is given, with
+   * segments as small as the smallest patch. */
   void
   setSegmentation(const typename Segmentation::Ptr& segmentation)
   {

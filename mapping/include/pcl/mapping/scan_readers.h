@@ -48,22 +48,37 @@ openKittiOdometry(const std::string& root,
                   const ScanReadOptions& options = {});
 
 /** \brief Open a drive of the KITTI raw data: DRIVE/velodyne_points/{data/N.bin,
- * timestamps.txt}; calib_velo_to_cam.txt in DRIVE or the folder above it. There is no
- * truth unless \a options names poses (of the laser). Stamps are seconds from the first
- * time. Errors as above. */
+ * timestamps.txt}; calib_velo_to_cam.txt in DRIVE or the folder above it.
+ *
+ * The truth is that of \a options (of the laser), or what the vehicle's own satellite
+ * and inertial navigation says: DRIVE/oxts/data/N.txt, with calib_imu_to_velo.txt.
+ * Stamps are seconds from the first time. Errors as above. */
 PCL_NURBS_MAPPING_EXPORT std::unique_ptr<ScanSource>
 openKittiRaw(const std::string& drive, const ScanReadOptions& options = {});
 
-/** \brief Open depth images in the layout of the TUM RGB-D benchmark: depth.txt (stamp
- * file), or associations.txt (stamp rgb stamp depth), and groundtruth.txt, whose poses
- * are interpolated at the stamps if two lie within 0.1 s on both sides.
+/** \brief Open a folder of depth images, in the layout of
+ * - TUM RGB-D or ICL-NUIM: depth.txt (stamp file) or associations.txt (stamp file stamp
+ *   file), and groundtruth.txt;
+ * - Microsoft 7-Scenes: frame-N.depth.png, there or in frames/, and frame-N.pose.txt
+ *   beside them, one period apart;
+ * - Redwood or Open3D: depth/N.png and trajectory.log, one period apart.
  *
- * The camera comes from the options, from intrinsics.txt (fx fy cx cy) or
- * camera-intrinsics.txt (3 x 3), in this order, or is the one of readCloud(). Depths
- * are 5000 per metre unless the options say otherwise; 0 and 65535 are no reading.
- * Errors as above. */
+ * Each file is taken where it is found, whatever the others are. Poses of
+ * groundtruth.txt are interpolated at the stamps between two that lie within 0.1 s; a
+ * scan without such a pose is kept, without truth.
+ *
+ * The camera comes from the options, from intrinsics.txt (fx fy cx cy),
+ * camera-intrinsics.txt (3 x 3) or camera.json, camera_primesense.json,
+ * camera_intrinsic.json (Open3D), in this order, or is the one of readCloud(). Depths
+ * per metre are 1000 for images named as in 7-Scenes and beside a trajectory.log, else
+ * 5000, unless the options say otherwise; 0 and 65535 are no reading. Errors as above.
+ */
 PCL_NURBS_MAPPING_EXPORT std::unique_ptr<ScanSource>
 openDepthSequence(const std::string& folder, const ScanReadOptions& options = {});
+
+/** \brief Whether a folder holds what openDepthSequence() looks for. */
+PCL_NURBS_MAPPING_EXPORT bool
+isDepthFolder(const std::string& folder);
 
 /** \brief Open a folder of .pcd, .ply and .bin clouds in the order of their names, with
  * poses.txt and times.txt beside them or in the folder above if they are there (one

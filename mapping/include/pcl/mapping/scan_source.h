@@ -56,7 +56,8 @@ public:
   virtual Scan
   read(std::size_t index) const = 0;
 
-  /** \brief True poses of the sensor, one per scan; null where they are not known. */
+  /** \brief True poses of the sensor at the stamps of the scans that have one, which
+   * need not be all; null where none is known. */
   virtual const Trajectory*
   truth() const = 0;
 

@@ -49,6 +49,13 @@ writeKittiTrajectory(const std::string& path, const Trajectory& trajectory);
 PCL_NURBS_MAPPING_EXPORT void
 writeTumTrajectory(const std::string& path, const Trajectory& trajectory);
 
+/** \brief Pose at a time, by even motion between the two poses around it; beyond the
+ * ends, the first or last pose.
+ * \param[in] trajectory by time, not empty. O(log n)
+ * \throws std::invalid_argument for an empty one */
+PCL_NURBS_MAPPING_EXPORT StampedPose
+poseAt(const Trajectory& trajectory, double time);
+
 /** \brief Length driven up to each pose, metres; 0 for the first. */
 PCL_NURBS_MAPPING_EXPORT std::vector<double>
 pathLengths(const Trajectory& trajectory);

@@ -63,6 +63,13 @@ struct MatchResult {
   int iterations = 0;
   /** Points of the scan that have a counterpart at the pose. */
   std::size_t correspondences = 0;
+  /** Share of the scan's points that lie on the target's surface at the pose, within a
+   * fifth of a voxel. A scan that is where it belongs has most of its points there but
+   * for those that look at new places; one that is not, few. */
+  double inlier_share = 0.0;
+  /** The same within a voxel of the target's points: the part of the scan that looks at
+   * known places, if the pose is right. */
+  double near_share = 0.0;
   /** Weighted root mean square residual, metres. */
   double rmse = 0.0;
   /** Of the pose, as Tangent says; unsupported directions have a variance of

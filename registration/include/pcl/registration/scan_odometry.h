@@ -29,8 +29,11 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   VoxelMapOptions map;
   /** One point of the scan per voxel of this size goes into the map ... */
   double map_spacing = 0.4;
-  /** ... and one per voxel of this size is matched. */
+  /** ... and one per voxel of this size is matched, but ... */
   double match_spacing = 0.8;
+  /** ... no more than so many points, evenly chosen: leaves and grass have many that
+   * add little. */
+  std::size_t max_match_points = 4500;
   /** Alignment; its maximal distance follows the motion. */
   MatchOptions match;
   MotionThresholdOptions threshold;
@@ -50,12 +53,16 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   rgbd();
 };
 
+struct PoseSearchRange;
+
 /** \brief What became of a scan. */
 struct OdometryResult {
   /** From the sensor's frame to that of the first scan. */
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   /** Whether the pose was measured; else it is the prediction. */
   bool tracked = false;
+  /** Whether the prediction did not lead there and the pose was searched for. */
+  bool searched = false;
   bool keyframe = false;
   /** Largest distance of pairs that was used. */
   double threshold = 0.0;
@@ -112,6 +119,22 @@ private:
   void
   track(OdometryResult& result);
 
+  /** Align from a start; keep the result when more of the scan fits than before. */
+  void
+  tryStart(const ScanPoints& scan,
+           const Eigen::Isometry3d& start,
+           int max_iterations,
+           OdometryResult& result) const;
+
+  /** Look for other starts and try them. */
+  void
+  searchStarts(const ScanPoints& scan,
+               const PoseSearchRange& range,
+               OdometryResult& result) const;
+
+  void
+  alignScan(const ScanPoints& scan, OdometryResult& result) const;
+
   void
   insert(const OdometryResult& result);
 
@@ -130,6 +153,8 @@ private:
   Eigen::Isometry3d keyframe_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d pruned_at_ = Eigen::Vector3d::Zero();
   bool any_keyframe_ = false;
+  /** Share of a scan that lies on the map, lately; 0 before anything is known. */
+  double usual_share_ = 0.0;
   int lost_ = 0;
 };
 

@@ -46,6 +46,10 @@ finitePoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
 PCL_NURBS_REGISTRATION_EXPORT ScanPoints
 voxelSubsample(const ScanPoints& points, double voxel_size);
 
+/** \brief So many points at most, evenly chosen in the scan's order. O(points) */
+PCL_NURBS_REGISTRATION_EXPORT ScanPoints
+thinned(const ScanPoints& points, std::size_t most);
+
 /** \brief A size of voxels that suits a cloud: the smallest at which about as many
  * places look flat as at any other size. O(points * log(extent / spacing))
  * \param[in] points finite points

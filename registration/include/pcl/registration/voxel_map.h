@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl/registration/nurbs/exports.h>
+#include <pcl/registration/voxel_bricks.h>
 
 #include <Eigen/Core>
 
@@ -87,7 +88,7 @@ public:
 
   /** \brief The kept point nearest to a place, not farther than \a max_distance:
    * exactly so, however many voxels lie in between. O(max_points) where there is one
-   * nearby, O((max_distance / voxel_size)^3) where there is none */
+   * nearby, O((max_distance / voxel_size / 4)^3) where there is none */
   std::optional<Eigen::Vector3d>
   nearest(const Eigen::Vector3d& place, double max_distance) const;
 
@@ -167,6 +168,14 @@ private:
             const Eigen::Vector3d& place,
             Candidate& best) const;
 
+  /** All voxels of a brick that may hold something better. */
+  void
+  scanBrick(const Cell& brick, const Eigen::Vector3d& place, Candidate& best) const;
+
+  /** All voxels nearer than the best so far, brick by brick. */
+  void
+  scanBricks(const Eigen::Vector3d& place, Candidate& best) const;
+
   VoxelMapOptions options_;
   double inverse_size_ = 1.0;
   std::vector<Voxel> voxels_;
@@ -174,6 +183,7 @@ private:
   std::vector<Eigen::Vector3f> points_;
   /** Open addressing, at most half full; the number of slots is a power of two. */
   std::vector<Slot> table_;
+  VoxelBricks bricks_;
 };
 
 } // namespace nurbs

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <pcl/segmentation/grid_segmentation.h>
+#include <pcl/segmentation/object_grouping.h>
 #include <pcl/segmentation/point_weights.h>
 #include <pcl/segmentation/segment_borders.h>
 #include <pcl/segmentation/superpixels.h>
-#include <pcl/segmentation/surface_grouping.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +19,11 @@ namespace pcl {
 /** \brief Segmentation of an organized cloud by a random walk on its lattice graph.
  *
  * A walker that steps to a neighbour the likelier the closer it is rarely crosses from
- * one surface to the next. Two modes:
+ * one surface to the next. Three modes:
  * - SURFACES (default): groups are the surfaces of a scene (Norouzzadeh Ravari,
  *   Taghirad, "NURBS-based Representation of Urban Environments for Mobile Robots",
  *   Algorithm 1); see nurbs::groupSurfaces();
+ * - OBJECTS: surfaces that meet in convex folds together; see nurbs::groupObjects();
  * - SUPERPIXELS: K groups of similar size that keep to the edges of surfaces (Liu,
  *   Tuzel, Ramalingam, Chellappa, "Entropy Rate Superpixel Segmentation", CVPR 2011);
  *   see nurbs::entropyRateSuperpixels().
@@ -51,7 +52,7 @@ public:
   using ConstPtr = shared_ptr<const EntropyRateSegmentation<PointT>>;
   using PointCloud = pcl::PointCloud<PointT>;
 
-  enum Mode { SURFACES, SUPERPIXELS };
+  enum Mode { SURFACES, SUPERPIXELS, OBJECTS };
 
   void
   setMode(Mode mode)
@@ -79,8 +80,37 @@ public:
     return surfaces_;
   }
 
-  /** \brief Models of the segments of the last segment() call in mode SURFACES, that of
-   * label k at k - 1; none after another mode. */
+  /** \brief How surfaces are grouped to objects in mode OBJECTS. */
+  void
+  setObjectOptions(const nurbs::ObjectGroupingOptions& options)
+  {
+    object_options_ = options;
+  }
+
+  const nurbs::ObjectGroupingOptions&
+  getObjectOptions() const
+  {
+    return object_options_;
+  }
+
+  /** \brief Objects of the last segment() call in mode OBJECTS, that of label k at
+   * k - 1, with the labels of their surfaces; none after another mode. */
+  const std::vector<nurbs::ObjectGroup>&
+  getObjects() const
+  {
+    return objects_;
+  }
+
+  /** \brief Surface of each cell after mode OBJECTS, whose labels are objects; empty
+   * after another mode. */
+  const std::vector<std::uint32_t>&
+  getSurfaceLabels() const
+  {
+    return surface_labels_;
+  }
+
+  /** \brief Models of the surfaces of the last segment() call in mode SURFACES (that of
+   * label k at k - 1) or OBJECTS (that of surface label k); none after another. */
   const std::vector<nurbs::SurfaceGroup>&
   getSurfaceGroups() const
   {
@@ -174,6 +204,13 @@ protected:
 
 private:
   std::uint32_t
+  groupToObjects(const nurbs::GridPoints& points,
+                 const nurbs::GridGraph& graph,
+                 const SensorNoise& noise,
+                 const nurbs::SurfaceGroupingOptions& options,
+                 std::vector<std::uint32_t>& labels);
+
+  std::uint32_t
   groupPoints(const nurbs::GridPoints& points,
               const nurbs::GridGraph& graph,
               const SensorNoise& noise,
@@ -186,6 +223,9 @@ private:
   std::function<void(nurbs::GridGraph&, const PointCloud&)> set_weights_;
   std::vector<nurbs::SegmentBorder> borders_;
   std::vector<nurbs::SurfaceGroup> groups_;
+  nurbs::ObjectGroupingOptions object_options_;
+  std::vector<nurbs::ObjectGroup> objects_;
+  std::vector<std::uint32_t> surface_labels_;
 };
 
 template <typename PointT>

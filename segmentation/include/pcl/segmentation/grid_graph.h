@@ -109,6 +109,16 @@ public:
     return lines_[static_cast<std::size_t>(direction)].source;
   }
 
+  /** \brief Number of edges of a cell, whatever their weight. */
+  std::size_t
+  degree(std::size_t cell) const
+  {
+    std::size_t edges = 0;
+    for (int d = 0; d < directions_; ++d)
+      edges += (target(d)[cell] != kNone ? 1 : 0) + (source(d)[cell] != kNone ? 1 : 0);
+    return edges;
+  }
+
   /** \brief Squared distance of the ends of each edge. */
   const std::vector<float>&
   squaredDistance(int direction) const

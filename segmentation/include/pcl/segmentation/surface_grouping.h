@@ -50,7 +50,8 @@ struct SurfaceGroupingOptions {
   double crease_angle = 0.4;
   /** Whether such groups are joined. */
   bool join_smooth = true;
-  /** Whether parts of one surface that an occluder or a hole separates are joined. */
+  /** Whether parts of one surface that an occluder or a hole separates are joined; not
+   * where most rays between them went through that surface. */
   bool join_separated = true;
   /** Smaller groups are dropped (points). */
   std::size_t min_size = 100;

@@ -75,6 +75,13 @@ public:
   void
   scaleNoise(double factor);
 
+  /** \brief Measure by how much of a cell directions err, along rows and along columns,
+   * instead of the small share that is assumed: points of steep surfaces leave the line
+   * of their neighbours by it. O(cells).
+   * \throws std::invalid_argument when the graph belongs to other points */
+  void
+  measureDirections(const GridGraph& graph, int threads = 1);
+
   /** \brief A valid cell's point. O(1). */
   ViewSample
   sample(std::size_t cell) const;
@@ -91,7 +98,19 @@ public:
   double
   sigma(std::size_t cell) const;
 
-  /** \brief Unit normal, in the grid's frame, of a surface at a direction. */
+  /** \brief Deviation of each cell's depth that errors of its direction cause. */
+  const std::vector<float>&
+  directionNoise() const
+  {
+    return direction_noise_;
+  }
+
+  /** \brief Point, in the grid's frame, of a surface at a direction of any length. */
+  Eigen::Vector3d
+  position(const ViewPolynomial& surface, const Eigen::Vector3d& direction) const;
+
+  /** \brief Unit normal, in the grid's frame, of a surface at a direction; in an
+   * angular grid away from the sensor, else along the depth. */
   Eigen::Vector3d
   normal(const ViewPolynomial& surface, const Eigen::Vector3d& direction) const;
 
@@ -114,7 +133,7 @@ private:
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(); // of a height field
   double scale_ = 1.0;
   std::vector<int> choices_;
-  std::vector<float> slope_; // change of depth from cell to cell
+  std::vector<float> direction_noise_; // of the depth, per cell
 };
 
 /** \brief Sums over points from which the best polynomials follow: normal equations.

@@ -75,8 +75,11 @@ NurbsReconstruction<PointT>::segment()
 {
   nurbs::StopWatch watch;
   typename Segmentation::Ptr segmentation = segmentation_;
-  if (!segmentation)
+  if (!segmentation) {
     segmentation.reset(new EntropyRateSegmentation<PointT>);
+    segmentation->setMinSegmentSize(
+        static_cast<std::size_t>(std::max(options_.min_patch_points, 1)));
+  }
   segmentation->setInputCloud(organized_);
   segmentation->setNumberOfThreads(numberOfThreads());
   segmentation->setGeometry(used_geometry_);

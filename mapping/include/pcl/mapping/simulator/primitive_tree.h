@@ -35,22 +35,40 @@ public:
     return primitives_;
   }
 
-  /** \brief The first meeting between two distances. */
+  /** \brief The first meeting of a ray between two distances. */
   BeamHit
   cast(const Beam& ray, double near, double far) const;
 
+  /** \brief The first meetings of many rays from one point, which costs much less than
+   * one by one when neighbours have similar directions: a column of a laser, a row of
+   * an image. The distances are those of cast(), to the bit.
+   * \param[in] origin of the rays
+   * \param[in] directions of unit length
+   * \param[in] near least distance
+   * \param[in,out] hits a hit per ray, which is replaced by one that is nearer; so
+   * hits[i].distance is how far ray i goes
+   * \throws std::invalid_argument when there is not one hit per direction */
+  void
+  castFan(const Eigen::Vector3d& origin,
+          const std::vector<Eigen::Vector3d>& directions,
+          double near,
+          std::vector<BeamHit>& hits) const;
+
 private:
-  /** An inner node has its children next to each other; a leaf its primitives. Boxes
-   * are in single precision, grown by more than its rounding, with a fourth coordinate
-   * that holds everything: four numbers fit a register. */
+  /** Deepest level of a tree. */
+  static constexpr std::size_t kDeepest = 128;
+
+  /** An inner node has its children next to each other; a leaf is one primitive. Boxes
+   * are in single precision, grown by more than its rounding. */
   struct Node {
-    Eigen::Array4f low;
-    Eigen::Array4f high;
-    std::uint32_t first; /**< of the children, or of the leaf's places in order_ */
-    std::uint32_t count; /**< of a leaf's primitives, 0 for an inner node */
+    Eigen::Array3f low;
+    Eigen::Array3f high;
+    std::uint32_t first; /**< of the children, or the leaf's place in order_ */
+    std::uint32_t count; /**< 1 for a leaf, 0 for an inner node */
   };
 
   class Builder;
+  class FanTraversal;
 
   std::vector<Primitive> primitives_; // in the order given
   std::vector<std::uint32_t> order_;

@@ -6,6 +6,8 @@
 #include <pcl/mapping/exports.h>
 #include <pcl/segmentation/grid_geometry.h>
 
+#include <Eigen/Geometry>
+
 #include <string>
 #include <vector>
 
@@ -25,15 +27,22 @@ struct PCL_NURBS_MAPPING_EXPORT LaserModel {
   std::vector<double> elevations; /**< of the beams from the top, radians */
   int columns = 2000;             /**< per turn */
   double period = 0.1;            /**< of a turn, seconds */
-  double range_noise = 0.02;      /**< standard deviation, metres */
+  double range_noise = 0.02;      /**< of each range: standard deviation, metres */
   double min_range = 0.9;         /**< metres */
   double max_range = 120.0;       /**< metres */
   double signal_range = 110.0;   /**< where all light of a white wall gives 1, metres */
   double intensity_noise = 0.03; /**< standard deviation; intensities are 0 to 1 */
   double random_loss = 0.01;     /**< share lost for no reason */
+  /** Errors that a beam has in every scan, as left by a calibration: standard
+   * deviations between beams of an offset of ranges (metres) and of a share of
+   * intensities. */
+  double beam_offset = 0.0;
+  double beam_gain = 0.0;
+  /** Parts of the vehicle, in the sensor's frame: beams that meet one give nothing. */
+  std::vector<Eigen::AlignedBox3d> own_body;
 
   /** \brief Velodyne HDL-64E: 32 beams from 2 down to -8.33 degrees by 1/3, 32 from
-   * -8.83 to -24.33 by 1/2. */
+   * -8.83 to -24.33 by 1/2; noise and the roof around it as in KITTI's scans. */
   static LaserModel
   hdl64();
 

@@ -115,6 +115,7 @@ private:
   std::unique_ptr<const Town> town_;
   Trajectory truth_;
   std::vector<std::string> problems_;
+  std::vector<bool> hidden_; // beams of a laser behind its own vehicle
 };
 
 } // namespace nurbs

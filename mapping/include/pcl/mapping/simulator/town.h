@@ -52,8 +52,17 @@ struct TownSurface {
   std::uint32_t object = 0;
 };
 
+/** \brief What surrounds a drive. The last two have nothing to hold on to along the
+ * way, and nothing that moves: tests for odometry. */
+enum class TownScene {
+  Streets, /**< a town */
+  Tunnel,  /**< smooth walls and a vault over the road, open where other legs cross */
+  Square   /**< a level plane without anything on it; poses are put at one height */
+};
+
 /** \brief What is built. */
 struct TownOptions {
+  TownScene scene = TownScene::Streets;
   std::uint64_t seed = 1;
   /** Height of the driven poses above the ground, metres. */
   double sensor_height = 1.73;

@@ -29,6 +29,8 @@ EntropyRateSegmentation<PointT>::performSegmentation(const nurbs::GridPoints& po
 {
   borders_.clear();
   groups_.clear();
+  objects_.clear();
+  surface_labels_.clear();
   if (!input_->isOrganized())
     throw std::invalid_argument("EntropyRateSegmentation: the cloud is not organized; "
                                 "segmentUnorganized() takes such a cloud");
@@ -46,16 +48,36 @@ EntropyRateSegmentation<PointT>::performSegmentation(const nurbs::GridPoints& po
 
 template <typename PointT>
 std::uint32_t
+EntropyRateSegmentation<PointT>::groupToObjects(
+    const nurbs::GridPoints& points,
+    const nurbs::GridGraph& graph,
+    const SensorNoise& noise,
+    const nurbs::SurfaceGroupingOptions& options,
+    std::vector<std::uint32_t>& labels)
+{
+  nurbs::ObjectGrouping result =
+      nurbs::groupObjects(points, graph, noise, options, object_options_);
+  labels = std::move(result.labels);
+  groups_ = std::move(result.surfaces);
+  objects_ = std::move(result.objects);
+  surface_labels_ = std::move(result.surface_labels);
+  return static_cast<std::uint32_t>(objects_.size());
+}
+
+template <typename PointT>
+std::uint32_t
 EntropyRateSegmentation<PointT>::groupPoints(const nurbs::GridPoints& points,
                                              const nurbs::GridGraph& graph,
                                              const SensorNoise& noise,
                                              std::vector<std::uint32_t>& labels)
 {
-  if (mode_ == SURFACES) {
+  if (mode_ != SUPERPIXELS) {
     nurbs::SurfaceGroupingOptions options = surfaces_;
     options.min_weight = min_weight_;
     options.min_size = this->getMinSegmentSize();
     options.threads = static_cast<int>(this->getNumberOfThreads());
+    if (mode_ == OBJECTS)
+      return groupToObjects(points, graph, noise, options, labels);
     return nurbs::groupSurfaces(points, graph, noise, options, labels, &groups_);
   }
   nurbs::SuperpixelOptions options = superpixels_;

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the PCL-NURBS authors
+
+#include <pcl/mapping/keyframe_graph.h>
+#include <pcl/registration/scan_preprocessing.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace pcl {
+namespace nurbs {
+namespace {
+
+/** Points of a keyframe that are gathered before they are thinned. */
+constexpr std::size_t kMostGathered = 100000;
+
+/** How a perturbation before a motion looks after it (Barfoot, State Estimation for
+ * Robotics, eq. 7.45, of the inverse motion). */
+TangentMatrix
+transport(const Eigen::Isometry3d& motion)
+{
+  const Eigen::Isometry3d back = motion.inverse();
+  const Eigen::Matrix3d rotation = back.linear();
+  const Eigen::Vector3d t = back.translation();
+  Eigen::Matrix3d cross;
+  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
+  TangentMatrix result = TangentMatrix::Zero();
+  result.topLeftCorner<3, 3>() = result.bottomRightCorner<3, 3>() = rotation;
+  result.topRightCorner<3, 3>() = cross * rotation;
+  return result;
+}
+
+TangentMatrix
+isotropic(double translation_variance, double rotation_variance)
+{
+  TangentMatrix result = TangentMatrix::Zero();
+  result.diagonal().head<3>().setConstant(translation_variance);
+  result.diagonal().tail<3>().setConstant(rotation_variance);
+  return result;
+}
+
+double
+square(double x)
+{
+  return x * x;
+}
+
+} // namespace
+
+KeyframeGraph::KeyframeGraph(const KeyframeGraphOptions& options,
+                             std::unique_ptr<LoopDetector> detector)
+    : options_(options), detector_(std::move(detector))
+{
+  if (!(options.point_spacing > 0.0) || !(options.drift_translation > 0.0) ||
+      !(options.drift_rotation > 0.0) || !(options.lost_translation > 0.0) ||
+      !(options.lost_rotation > 0.0))
+    throw std::invalid_argument("KeyframeGraph: all options must be positive");
+  options.solver.validate();
+}
+
+void
+KeyframeGraph::add(std::size_t scan, double stamp, const OdometryResult& odometry)
+{
+  if (!scans_.empty())
+    growCovariance(odometry);
+  last_pose_ = odometry.pose;
+  if (odometry.keyframe || keyframes_.empty())
+    beginKeyframe(scan, odometry);
+  addPoints(odometry);
+  scans_.push_back({stamp,
+                    keyframes_.size() - 1,
+                    keyframes_.back().T_odometry_keyframe.inverse() * odometry.pose});
+}
+
+void
+KeyframeGraph::growCovariance(const OdometryResult& odometry)
+{
+  const Eigen::Isometry3d motion = last_pose_.inverse() * odometry.pose;
+  const double length = motion.translation().norm();
+  way_ += length;
+  const TangentMatrix moved = transport(motion);
+  covariance_ = moved * covariance_ * moved.transpose();
+  covariance_ += odometry.tracked ? odometry.match.covariance
+                                  : isotropic(square(options_.lost_translation),
+                                              square(options_.lost_rotation));
+}
+
+void
+KeyframeGraph::beginKeyframe(std::size_t scan, const OdometryResult& odometry)
+{
+  const NodeId node = keyframes_.size();
+  if (keyframes_.empty()) {
+    graph_.addNode(node, odometry.pose);
+  }
+  else {
+    completeKeyframe();
+    const Keyframe& last = keyframes_.back();
+    const Eigen::Isometry3d T_last_new =
+        orthonormal(last.T_odometry_keyframe.inverse() * odometry.pose);
+    // Drift is shared by the alignments of a stretch: it grows with its length.
+    const double length = way_ - last.way;
+    const double least = options_.point_spacing; // a turn on the spot drifts too
+    covariance_ += isotropic(square(options_.drift_translation * (length + least)),
+                             square(options_.drift_rotation * (length + least)));
+    graph_.addNode(node, orthonormal(graph_.node(last.node).T_world_node * T_last_new));
+    const TangentMatrix information = covariance_.inverse();
+    graph_.addFactor(BetweenFactor{
+        last.node, node, T_last_new, 0.5 * (information + information.transpose())});
+  }
+  covariance_.setZero();
+  keyframes_.push_back({node, scan, way_, odometry.pose, {}});
+}
+
+void
+KeyframeGraph::addPoints(const OdometryResult& odometry)
+{
+  if (!odometry.tracked)
+    return;
+  Keyframe& keyframe = keyframes_.back();
+  const Eigen::Isometry3f T_keyframe_scan =
+      (keyframe.T_odometry_keyframe.inverse() * odometry.pose).cast<float>();
+  for (const Eigen::Vector3f& point : odometry.points)
+    keyframe.points.push_back(T_keyframe_scan * point);
+  if (keyframe.points.size() > kMostGathered)
+    keyframe.points = voxelSubsample(keyframe.points, options_.point_spacing);
+}
+
+void
+KeyframeGraph::completeKeyframe()
+{
+  Keyframe& keyframe = keyframes_.back();
+  keyframe.points = voxelSubsample(keyframe.points, options_.point_spacing);
+  keyframe.points.shrink_to_fit();
+  if (!detector_)
+    return;
+  const std::vector<BetweenFactor> found = detector_->detect(keyframes_, graph_);
+  if (found.empty())
+    return;
+  for (const BetweenFactor& loop : found) {
+    graph_.addFactor(loop);
+    loops_.push_back(loop);
+  }
+  optimize(graph_, options_.solver);
+}
+
+void
+KeyframeGraph::finish()
+{
+  if (!keyframes_.empty())
+    completeKeyframe();
+}
+
+Trajectory
+KeyframeGraph::trajectory() const
+{
+  Trajectory result;
+  result.reserve(scans_.size());
+  for (const AttachedScan& scan : scans_)
+    result.push_back({scan.stamp,
+                      graph_.node(keyframes_[scan.keyframe].node).T_world_node *
+                          scan.T_keyframe_scan});
+  return result;
+}
+
+Trajectory
+KeyframeGraph::odometry() const
+{
+  Trajectory result;
+  result.reserve(scans_.size());
+  for (const AttachedScan& scan : scans_)
+    result.push_back(
+        {scan.stamp,
+         keyframes_[scan.keyframe].T_odometry_keyframe * scan.T_keyframe_scan});
+  return result;
+}
+
+} // namespace nurbs
+} // namespace pcl
