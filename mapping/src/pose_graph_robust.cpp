@@ -55,7 +55,7 @@ private:
     if (options_.check_cycles)
       checkCycles(odometry);
     applyMethod(odometry);
-    if (!options_.check_jointly)
+    if (!options_.check_jointly && options_.method != RobustMethod::Consensus)
       return;
     solveWith(1e-8);
     judged_.solve();

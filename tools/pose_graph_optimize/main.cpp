@@ -164,7 +164,7 @@ reportOf(const GraphSettings& settings, const G2oGraph& input, const Outcome& ou
       {"ignored_rows", input.ignored_rows},
       {"messages", input.messages},
       {"seconds",
-       {{"read", outcome.read_seconds}, {"optimise", outcome.solve_seconds}}},
+       {{"read", outcome.read_seconds}, {"optimise", outcome.solve_seconds}, {"solver", outcome.summary.seconds}}},
       {"peak_rss_mb", peakMemoryMegabytes()},
       {"options",
        {{"init", settings.init_word},

@@ -50,7 +50,8 @@ struct RobustOptions {
   /** Before the method: reject loops that contradict the odometry between their ends. */
   bool check_cycles = true;
   /** After the method: reject loops that contradict what all others say together, take
-   * back rejected ones that agree with it, until nothing changes. */
+   * back rejected ones that agree with it, until nothing changes. Consensus always ends
+   * so. */
   bool check_jointly = true;
   /** Ends of graduated non-convexity and of the switchable weights. */
   int max_reweightings = 100;
