@@ -14,8 +14,27 @@ constexpr double kMinPoints = 6.0;
 constexpr double kMaxThickness = 0.03;
 /** ... and at least so much across the longest extent: one ring is no plane. */
 constexpr double kMinWidth = 0.03;
-/** An edge of two planes has 0.08 of its variance across, a ball a third. */
-constexpr double kMinScatter = 0.12;
+/** An edge of two planes has about 0.14 of its variance across, a ball a third. */
+constexpr double kMinScatter = 0.2;
+/** A few points on such an edge may look like a ball. */
+constexpr double kMinScatterPoints = 20.0;
+
+/** Of the eigenvector to the smallest of three variances of so many points
+ * (Anderson, Asymptotic theory for principal component analysis, 1963, eq. 2.18). */
+Eigen::Matrix3d
+normalCovariance(double count,
+                 const Eigen::Vector3d& variance,
+                 const Eigen::Matrix3d& axes)
+{
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  const double noise = variance[0] / (count - 3.0); // a plane has three parameters
+  for (int k = 1; k < 3; ++k) {
+    const double gap = variance[k] - variance[0];
+    covariance +=
+        noise * variance[k] / (gap * gap) * axes.col(k) * axes.col(k).transpose();
+  }
+  return covariance;
+}
 
 } // namespace
 
@@ -29,10 +48,17 @@ localSurface(const PointMoments& moments)
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(moments.covariance);
   const Eigen::Vector3d variance = solver.eigenvalues();
+  const Eigen::Matrix3d axes = solver.eigenvectors();
   const double total = variance.sum();
-  if (variance[0] <= kMaxThickness * total && variance[1] >= kMinWidth * total)
-    surface.normal = solver.eigenvectors().col(0);
-  surface.scattered = variance[0] >= kMinScatter * total;
+  surface.scattered =
+      moments.count >= kMinScatterPoints && variance[0] >= kMinScatter * total;
+  if (variance[0] <= kMaxThickness * total && variance[1] >= kMinWidth * total) {
+    surface.normal = axes.col(0);
+    surface.normal_covariance = normalCovariance(moments.count, variance, axes);
+  }
+  else if (!surface.scattered) {
+    surface.line = axes.col(2);
+  }
   return surface;
 }
 

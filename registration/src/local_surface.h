@@ -12,6 +12,10 @@ namespace nurbs {
 struct LocalSurface {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); // zero where it is not flat
+  /** Where it is an edge, its direction, along which nothing is held; else zero. */
+  Eigen::Vector3d line = Eigen::Vector3d::Zero();
+  /** Covariance of a plane's normal. */
+  Eigen::Matrix3d normal_covariance = Eigen::Matrix3d::Zero();
   /** Whether it has depth in all directions, as leaves have: neither a plane nor the
    * edge between two, along which points may slide. */
   bool scattered = false;

@@ -52,7 +52,9 @@ MatchPairs::lookUp(const Eigen::Vector3d& place, MatchPair& pair) const
 }
 
 Eigen::Matrix3d
-MatchPairs::metric(std::size_t i, const Eigen::Vector3d& normal) const
+MatchPairs::metric(std::size_t i,
+                   const Eigen::Vector3d& normal,
+                   const Eigen::Vector3d& line) const
 {
   Eigen::Matrix3d plane = normal * normal.transpose();
   switch (options_.metric) {
@@ -60,7 +62,8 @@ MatchPairs::metric(std::size_t i, const Eigen::Vector3d& normal) const
     break;
   case MatchMetric::PointToPlane:
     if (normal.isZero(0.0))
-      return options_.scatter_weight * Eigen::Matrix3d::Identity();
+      return options_.scatter_weight *
+             (Eigen::Matrix3d::Identity() - line * line.transpose());
     return plane;
   case MatchMetric::PlaneToPlane: {
     const Eigen::Vector3d own = normals_[i].cast<double>();
@@ -86,7 +89,9 @@ MatchPairs::makeTerm(std::size_t i,
   PairTerm term;
   term.residual =
       rotation.transpose() * (place - (plane ? pair.surface.mean : pair.target));
-  term.metric = metric(i, rotation.transpose() * pair.surface.normal);
+  term.metric = metric(i,
+                       rotation.transpose() * pair.surface.normal,
+                       rotation.transpose() * pair.surface.line);
   term.square = term.residual.dot(term.metric * term.residual);
   return term;
 }

@@ -79,7 +79,9 @@ private:
            const Eigen::Matrix3d& rotation) const;
 
   Eigen::Matrix3d
-  metric(std::size_t i, const Eigen::Vector3d& normal) const;
+  metric(std::size_t i,
+         const Eigen::Vector3d& normal,
+         const Eigen::Vector3d& line) const;
 
   const VoxelMap& map_;
   const ScanPoints& scan_;

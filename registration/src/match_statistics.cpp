@@ -146,6 +146,15 @@ pointJacobian(const Eigen::Vector3f& point)
   return jacobian;
 }
 
+TangentMatrix
+normalNoise(const Eigen::Matrix<double, 3, 6>& jacobian,
+            const Eigen::Matrix3d& rotation,
+            const LocalSurface& surface)
+{
+  return jacobian.transpose() *
+         (rotation.transpose() * surface.normal_covariance * rotation) * jacobian;
+}
+
 void
 describeMatch(const MatchPairs& pairs,
               const ScanPoints& scan,
@@ -164,7 +173,8 @@ describeMatch(const MatchPairs& pairs,
         result.pose.linear().transpose() * pair.surface.normal;
     if (pair.surface.flat()) {
       const Tangent row = jacobian.transpose() * normal;
-      sums.support += row * row.transpose();
+      sums.support += row * row.transpose() -
+                      normalNoise(jacobian, result.pose.linear(), pair.surface);
     }
     else if (pair.surface.scattered) {
       sums.support += options.scatter_weight * jacobian.transpose() * jacobian;

@@ -12,6 +12,13 @@ namespace nurbs {
 Eigen::Matrix<double, 3, 6>
 pointJacobian(const Eigen::Vector3f& point);
 
+/** What the errors of a plane's normal seem to hold, though they hold nothing: the
+ * expected part of n n' that is due to them. */
+TangentMatrix
+normalNoise(const Eigen::Matrix<double, 3, 6>& jacobian,
+            const Eigen::Matrix3d& rotation,
+            const LocalSurface& surface);
+
 /** Fill in what is known about the result at its pose, from pairs that are up to date
  * with it. */
 void

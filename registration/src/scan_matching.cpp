@@ -30,6 +30,9 @@ constexpr double kShrink = 0.6;
 
 struct NormalEquations {
   TangentMatrix matrix = TangentMatrix::Zero();
+  /** The part of the matrix that holds nothing: noise of normals, and nearest points on
+   * edges, which go along with the scan. */
+  TangentMatrix apparent = TangentMatrix::Zero();
   Tangent gradient = Tangent::Zero();
   double weight = 0.0;
   double weighted_range = 0.0;
@@ -38,6 +41,7 @@ struct NormalEquations {
   operator+=(const NormalEquations& other)
   {
     matrix += other.matrix;
+    apparent += other.apparent;
     gradient += other.gradient;
     weight += other.weight;
     weighted_range += other.weighted_range;
@@ -47,6 +51,7 @@ struct NormalEquations {
 NormalEquations
 linearize(const MatchPairs& pairs,
           const ScanPoints& scan,
+          const Eigen::Matrix3d& rotation,
           const RobustKernel& kernel,
           int threads)
 {
@@ -60,6 +65,11 @@ linearize(const MatchPairs& pairs,
         weight * jacobian.transpose() * term.metric;
     sum.matrix.noalias() += weighted * jacobian;
     sum.gradient.noalias() += weighted * term.residual;
+    const LocalSurface& surface = pairs.pairs()[i].surface;
+    if (surface.flat())
+      sum.apparent += weight * normalNoise(jacobian, rotation, surface);
+    else if (!surface.scattered)
+      sum.apparent.noalias() += weighted * jacobian;
     sum.weight += weight;
     sum.weighted_range += weight * scan[i].cast<double>().squaredNorm();
   };
@@ -73,15 +83,18 @@ solve(const NormalEquations& sums, double min_support)
 {
   Tangent scale = Tangent::Ones();
   scale.tail<3>() /= std::sqrt(std::max(sums.weighted_range / sums.weight, 1e-12));
-  const TangentMatrix balanced = scale.asDiagonal() * sums.matrix * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<TangentMatrix> solver(balanced / sums.weight);
+  const auto balanced = [&](const TangentMatrix& matrix) -> TangentMatrix {
+    return scale.asDiagonal() * matrix * scale.asDiagonal() / sums.weight;
+  };
+  const Eigen::SelfAdjointEigenSolver<TangentMatrix> solver(
+      balanced(sums.matrix - sums.apparent));
+  const TangentMatrix whole = balanced(sums.matrix);
   const Tangent gradient = scale.cwiseProduct(sums.gradient) / sums.weight;
-  Tangent step = Tangent::Zero();
-  for (int i = 0; i < 6; ++i) {
-    const Tangent direction = solver.eigenvectors().col(i);
-    if (solver.eigenvalues()[i] >= min_support)
-      step -= direction * (direction.dot(gradient) / solver.eigenvalues()[i]);
-  }
+  const auto unsupported =
+      (solver.eigenvalues().array() < min_support).count(); // they are sorted
+  const Eigen::MatrixXd basis = solver.eigenvectors().rightCols(6 - unsupported);
+  const Eigen::MatrixXd reduced = basis.transpose() * whole * basis;
+  const Tangent step = -basis * reduced.ldlt().solve(basis.transpose() * gradient);
   return scale.cwiseProduct(step);
 }
 
@@ -149,7 +162,8 @@ matchScan(const VoxelMap& map,
         kernelFor(pairs, options.kernel, size, result.iterations);
     pairs.setReach(reachOf(kernel, options, size));
     const Tangent step =
-        solve(linearize(pairs, scan, kernel, options.threads), options.min_support);
+        solve(linearize(pairs, scan, result.pose.linear(), kernel, options.threads),
+              options.min_support);
     result.pose = orthonormal(result.pose * exponential(step));
     result.converged = step.head<3>().norm() < options.translation_epsilon &&
                        step.tail<3>().norm() < options.rotation_epsilon;

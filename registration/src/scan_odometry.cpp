@@ -58,6 +58,13 @@ fitOf(const MatchResult& match)
              : 0.0;
 }
 
+/** Whether the surroundings hold so little that other places fit as well. */
+bool
+isAmbiguous(const MatchResult& match)
+{
+  return match.degeneracy.unsupported > 0 && match.near_share >= kDoubtfulNearShare;
+}
+
 double
 angleOf(const Eigen::Isometry3d& motion)
 {
@@ -196,7 +203,7 @@ ScanOdometry::alignScan(const ScanPoints& scan, OdometryResult& result) const
   constexpr PoseSearchRange kTurns;
   constexpr PoseSearchRange kTurnsAndShifts{2.0, 0.35, 8, 2};
   tryStart(scan, result.pose, kTrialIterations, result);
-  if (result.match.inlier_share < kSureShare)
+  if (result.match.inlier_share < kSureShare && !isAmbiguous(result.match))
     searchStarts(scan, kTurns, result);
   if (result.match.inlier_share < kDoubtfulShare &&
       result.match.near_share < kDoubtfulNearShare)

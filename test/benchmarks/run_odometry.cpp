@@ -87,9 +87,10 @@ memoryMegabytes(const std::string& what)
 void
 log(std::ostream& stream, std::size_t scan, const OdometryResult& result, double ms)
 {
-  stream << scan << " tracked " << result.tracked << " searched " << result.searched << " iterations "
-         << result.match.iterations << " pairs " << result.match.correspondences
-         << " inliers " << result.match.inlier_share << " near " << result.match.near_share << " rmse " << result.match.rmse
+  stream << scan << " tracked " << result.tracked << " searched " << result.searched
+         << " iterations " << result.match.iterations << " pairs "
+         << result.match.correspondences << " inliers " << result.match.inlier_share
+         << " near " << result.match.near_share << " rmse " << result.match.rmse
          << " threshold " << result.threshold << " unsupported "
          << result.match.degeneracy.unsupported << " least "
          << result.match.degeneracy.support[0] << " cpu_ms " << ms << '\n';
