@@ -206,7 +206,7 @@ def main():
                                                        "local grouped"])
     parser.add_argument("--shares", type=float, nargs="*", default=[0.1, 0.5, 1.0])
     parser.add_argument("--seeds", type=int, nargs="*", default=[1, 2, 3])
-    args = parser.parse_args()
+    args = parser.parse_intermixed_args()
     print("| loops | method | true kept | false kept | ATE m | with true only | ratio | s |\n"
           "| --- | --- | --- | --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as args.folder:
