@@ -48,9 +48,9 @@ jointDistance(const PoseGraph& graph,
                  toSolverPose(graph.node(loop.measured.to).T_world_node),
                  values);
   const Eigen::MatrixXd jacobian = jacobianOf(graph, loop, values);
-  const Eigen::MatrixXd spread =
-      jacobian * poses.of({loop.measured.from, loop.measured.to}) *
-      jacobian.transpose();
+  const Eigen::MatrixXd spread = jacobian *
+                                 poses.of({loop.measured.from, loop.measured.to}) *
+                                 jacobian.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(spread);
   const Eigen::VectorXd components =
       parts.eigenvectors().transpose() *

@@ -26,8 +26,7 @@ jointDistances(const JudgedGraph& judged, const Judged& loops, int threads)
   for (std::ptrdiff_t k = 0; k < count; ++k) {
     const auto place = static_cast<std::size_t>(k);
     const JudgedLoop& loop = *loops[place];
-    distances[place] =
-        jointDistance(judged.graph, poses, loop, loop.verdict.accepted);
+    distances[place] = jointDistance(judged.graph, poses, loop, loop.verdict.accepted);
   }
   return distances;
 }

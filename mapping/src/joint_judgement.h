@@ -9,8 +9,8 @@ namespace pcl {
 namespace nurbs {
 
 /** Accept loops in the order in which the odometry knows better where they should lead,
- * a few more each time, each after its distance from what odometry and accepted loops say
- * together. */
+ * a few more each time, each after its distance from what odometry and accepted loops
+ * say together. */
 void
 growByCertainty(JudgedGraph& judged,
                 const OdometryUncertainty& odometry,

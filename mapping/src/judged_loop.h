@@ -30,7 +30,8 @@ struct JudgedGraph {
 
   /** Pass a verdict and set the weight accordingly. */
   void
-  judge(JudgedLoop& loop, LoopCheck check, double distance, double limit, bool accepted);
+  judge(
+      JudgedLoop& loop, LoopCheck check, double distance, double limit, bool accepted);
 
   /** Squared distance of the loop's measurement from the estimates in units of its own
    * covariance. */

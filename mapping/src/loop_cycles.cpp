@@ -45,8 +45,7 @@ MeasuredLoop
 measuredLoop(const PoseGraph& graph, FactorId id, const NoiseScale& scale)
 {
   const auto& between = std::get<BetweenFactor>(graph.factor(id).measurement);
-  const bool planar =
-      graph.node(between.from).planar && graph.node(between.to).planar;
+  const bool planar = graph.node(between.from).planar && graph.node(between.to).planar;
   return {id,
           between.from,
           between.to,

@@ -32,15 +32,15 @@ struct CycleError {
 std::optional<CycleError>
 cycleError(const MeasuredLoop& loop, const OdometryUncertainty& odometry);
 
-/** d^2 of the cycle of a loop and the odometry between its ends; nothing if that does not
- * join them. O(1). */
+/** d^2 of the cycle of a loop and the odometry between its ends; nothing if that does
+ * not join them. O(1). */
 std::optional<double>
 cycleDistance(const MeasuredLoop& loop, const OdometryUncertainty& odometry);
 
 /** d^2 of the cycle of two loops and the odometry between their ends, the covariances
  * taken as independent (Mangelson, Dominic, Eustice, Vasudevan, Pairwise consistent
- * measurement set maximization for robust multi-robot map merging, ICRA 2018); nothing if
- * odometry does not join the ends. O(1). */
+ * measurement set maximization for robust multi-robot map merging, ICRA 2018); nothing
+ * if odometry does not join the ends. O(1). */
 std::optional<double>
 pairDistance(const MeasuredLoop& a,
              const MeasuredLoop& b,

@@ -8,8 +8,8 @@
 namespace pcl {
 namespace nurbs {
 
-/** Optimise and reweight the loops that are accepted so far until the weights stay, then
- * reject those that lost theirs. Weights are left at 1 or 0. */
+/** Optimise and reweight the loops that are accepted so far until the weights stay,
+ * then reject those that lost theirs. Weights are left at 1 or 0. */
 void
 rejectByGraduatedNonConvexity(JudgedGraph& judged, const RobustOptions& options);
 

@@ -49,7 +49,8 @@ public:
 private:
   struct Coloured {
     std::size_t vertex;
-    std::size_t colour; // from 1; a clique among it and those before has at most so many
+    std::size_t
+        colour; // from 1; a clique among it and those before has at most so many
   };
 
   /** Take the candidate with most neighbours among the candidates, again and again. */

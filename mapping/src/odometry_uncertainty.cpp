@@ -64,7 +64,8 @@ TangentMatrix
 NoiseScale::applyTo(const TangentMatrix& covariance) const
 {
   Tangent factors;
-  factors << Eigen::Vector3d::Constant(translation), Eigen::Vector3d::Constant(rotation);
+  factors << Eigen::Vector3d::Constant(translation),
+      Eigen::Vector3d::Constant(rotation);
   return factors.asDiagonal() * covariance * factors.asDiagonal();
 }
 
@@ -148,9 +149,8 @@ OdometryUncertainty::motion(NodeId from, NodeId to) const
   const Place& second = places_[indexOf(to)];
   if (first.stretch != second.stretch)
     return std::nullopt;
-  const TangentMatrix between = from < to
-                                    ? second.covariance - first.covariance
-                                    : first.covariance - second.covariance;
+  const TangentMatrix between = from < to ? second.covariance - first.covariance
+                                          : first.covariance - second.covariance;
   const TangentMatrix change = adjoint(second.T_start_node.inverse());
   return UncertainMotion{first.T_start_node.inverse() * second.T_start_node,
                          change * between * change.transpose()};

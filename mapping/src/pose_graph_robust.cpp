@@ -184,7 +184,8 @@ loopsOf(const PoseGraph& graph)
   std::vector<FactorId> loops;
   for (const auto& [id, factor] : graph.factors())
     if (const auto* between = std::get_if<BetweenFactor>(&factor.measurement))
-      if (std::max(between->from, between->to) - std::min(between->from, between->to) > 1)
+      if (std::max(between->from, between->to) - std::min(between->from, between->to) >
+          1)
         loops.push_back(id);
   return loops;
 }

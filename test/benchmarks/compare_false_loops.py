@@ -108,7 +108,7 @@ def study(args, name, lines, is_true, truth):
         true_kept = sum(is_true(p) and p not in gone for p in loops)
         false_kept = sum(not is_true(p) and p not in gone for p in loops)
         error = ate(poses, truth)
-        ratio = f"{error / reference:.3f}" if reference > 0 else ""
+        ratio = f"{error / reference:.3f}" if reference > 1e-6 else ""
         print(f"| {name} | {method} | {true_kept} / {sum(map(is_true, loops))} | {false_kept} / "
               f"{sum(not is_true(p) for p in loops)} | {error:.4f} | {reference:.4f} | {ratio} | "
               f"{seconds:.2f} |", flush=True)
@@ -206,7 +206,7 @@ def main():
                                                        "local grouped"])
     parser.add_argument("--shares", type=float, nargs="*", default=[0.1, 0.5, 1.0])
     parser.add_argument("--seeds", type=int, nargs="*", default=[1, 2, 3])
-    args = parser.parse_args()
+    args = parser.parse_intermixed_args()
     print("| loops | method | true kept | false kept | ATE m | with true only | ratio | s |\n"
           "| --- | --- | --- | --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as args.folder:

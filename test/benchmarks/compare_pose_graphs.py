@@ -189,7 +189,7 @@ def main():
     parser.add_argument("--runs", type=int, default=3, help="of which the median is taken")
     parser.add_argument("--init", nargs="*", default=["file", "chordal"])
     parser.add_argument("--poses", type=int, nargs="*", default=[1000, 3000, 10000, 30000, 100000])
-    args = parser.parse_args()
+    args = parser.parse_intermixed_args()
     with tempfile.TemporaryDirectory() as args.folder:
         {"batch": batch, "incremental": incremental, "scaling": scaling}[args.study](args)
 

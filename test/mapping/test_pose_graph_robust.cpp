@@ -141,7 +141,8 @@ TEST_P(EachMethod, isTheSameEachTime)
     for (int k = 0; k < 15; ++k)
       made.addFalse(2 * k, 110 - k);
     const RobustSummary summary = optimizeRobustly(made.graph, options);
-    return std::make_pair(summary.rejected(), made.graph.node(60).T_world_node.matrix());
+    return std::make_pair(summary.rejected(),
+                          made.graph.node(60).T_world_node.matrix());
   };
   EXPECT_EQ(run(), run());
 }

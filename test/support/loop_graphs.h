@@ -14,8 +14,8 @@ namespace pcl_nurbs_test {
 
 using namespace pcl::nurbs;
 
-/** A drive of several rounds on a circle with noisy odometry and noisy true loops between
- * the rounds; false loops are added on demand. */
+/** A drive of several rounds on a circle with noisy odometry and noisy true loops
+ * between the rounds; false loops are added on demand. */
 class LoopGraph {
 public:
   PoseGraph graph;
@@ -50,8 +50,8 @@ public:
   void
   addFalse(int from, int to)
   {
-    const Eigen::Isometry3d wrong = truth[index(from)].inverse() *
-                                    truth[index((to + 10) % 120)];
+    const Eigen::Isometry3d wrong =
+        truth[index(from)].inverse() * truth[index((to + 10) % 120)];
     false_loops.insert(graph.addFactor(noisy(from, to, wrong)));
   }
 
@@ -85,7 +85,8 @@ private:
     pose.linear() =
         Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     if (!planar_)
-      pose.rotate(Eigen::AngleAxisd(0.3 * std::sin(3.0 * angle), Eigen::Vector3d::UnitX()));
+      pose.rotate(
+          Eigen::AngleAxisd(0.3 * std::sin(3.0 * angle), Eigen::Vector3d::UnitX()));
     return pose;
   }
 

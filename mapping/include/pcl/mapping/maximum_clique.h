@@ -13,8 +13,8 @@
 namespace pcl {
 namespace nurbs {
 
-/** \brief Neighbours of each vertex of an undirected graph: bit j of entry i. Symmetric,
- * no vertex is its own neighbour.
+/** \brief Neighbours of each vertex of an undirected graph: bit j of entry i.
+ * Symmetric, no vertex is its own neighbour.
  * \ingroup mapping */
 using NeighbourSets = std::vector<boost::dynamic_bitset<>>;
 
@@ -25,10 +25,10 @@ struct MaximumClique {
   bool proven = false;
 };
 
-/** \brief Find a maximum clique by branch and bound: vertices are coloured greedily, the
- * number of colours bounds what a branch can reach (Tomita and Seki, An efficient
- * branch-and-bound algorithm for finding a maximum clique, 2003), and a greedy clique by
- * degree comes first. The same for the same input.
+/** \brief Find a maximum clique by branch and bound: vertices are coloured greedily,
+ * the number of colours bounds what a branch can reach (Tomita and Seki, An efficient
+ * branch-and-bound algorithm for finding a maximum clique, 2003), and a greedy clique
+ * by degree comes first. The same for the same input.
  * \param[in] neighbours the graph
  * \param[in] max_steps branches looked at before the best clique found so far is
  * returned; exponentially many may be needed to prove a clique the largest

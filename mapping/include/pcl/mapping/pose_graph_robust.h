@@ -18,36 +18,35 @@ enum class RobustMethod {
    * each if it agrees with what odometry and accepted loops say together. False loops
    * never enter a solution, so they neither bend it nor fill its matrices. */
   Consensus,
-  /** Graduated non-convexity: weights from a loss that goes from convex to the wanted one
-   * while the graph is optimised (Yang, Antonante, Tzoumas, Carlone, RA-L 5(2), 2020). */
+  /** Graduated non-convexity: weights from a loss that goes from convex to the wanted
+   * one while the graph is optimised (Yang, Antonante, Tzoumas, Carlone, RA-L 5(2),
+   * 2020). */
   GraduatedNonConvexity,
   /** Switchable constraints in closed form, as dynamic covariance scaling (Agarwal,
    * Tipaldi, Spinello, Stachniss, Burgard, ICRA 2013). */
   Switchable,
-  /** The largest set of loops that agree pairwise, given the odometry (Mangelson, Dominic,
-   * Eustice, Vasudevan, ICRA 2018). Compares all pairs: O(n^2). */
+  /** The largest set of loops that agree pairwise, given the odometry (Mangelson,
+   * Dominic, Eustice, Vasudevan, ICRA 2018). Compares all pairs: O(n^2). */
   PairwiseConsistency
 };
 
 /** \brief The loss that graduated non-convexity ends with. */
-enum class RobustLoss {
-  TruncatedLeastSquares,
-  GemanMcClure
-};
+enum class RobustLoss { TruncatedLeastSquares, GemanMcClure };
 
-/** \brief How optimizeRobustly() tells false loops from true ones. Distances are squared
- * Mahalanobis distances, their limit a quantile of chi square with the degrees of freedom
- * of a pose. */
+/** \brief How optimizeRobustly() tells false loops from true ones. Distances are
+ * squared Mahalanobis distances, their limit a quantile of chi square with the degrees
+ * of freedom of a pose. */
 struct RobustOptions {
   RobustMethod method = RobustMethod::Consensus;
   RobustLoss loss = RobustLoss::TruncatedLeastSquares;
   /** Share of true loops that should pass each check, if covariances are right. */
   double probability = 0.99;
   /** Judge by smaller errors than information matrices say, if the cycles of loops and
-   * odometry close better. (Never by larger ones: information that claims too much is to
-   * be corrected by the caller.) The solution keeps the information it was given. */
+   * odometry close better. (Never by larger ones: information that claims too much is
+   * to be corrected by the caller.) The solution keeps the information it was given. */
   bool estimate_noise = true;
-  /** Before the method: reject loops that contradict the odometry between their ends. */
+  /** Before the method: reject loops that contradict the odometry between their ends.
+   */
   bool check_cycles = true;
   /** After the method: reject loops that contradict what all others say together, take
    * back rejected ones that agree with it, until nothing changes. Consensus always ends
@@ -83,15 +82,16 @@ struct LoopVerdict {
   bool accepted = true;
   /** The last check that it was subjected to. */
   LoopCheck check = LoopCheck::Weight;
-  /** The distance in that check and its limit. (Pairs: members of the consistent set that
-   * the loop agrees with, and all members.) */
+  /** The distance in that check and its limit. (Pairs: members of the consistent set
+   * that the loop agrees with, and all members.) */
   double distance = 0.0;
   double limit = 0.0;
 };
 
 /** \brief What optimizeRobustly() did. */
 struct RobustSummary {
-  /** Of the last optimisation, with the accepted loops only; seconds are those of all. */
+  /** Of the last optimisation, with the accepted loops only; seconds are those of all.
+   */
   PoseGraphSummary solution;
   /** All loops that were judged, by name. */
   std::vector<LoopVerdict> loops;
