@@ -14,22 +14,6 @@ namespace {
 /** Points of a keyframe that are gathered before they are thinned. */
 constexpr std::size_t kMostGathered = 100000;
 
-/** How a perturbation before a motion looks after it (Barfoot, State Estimation for
- * Robotics, eq. 7.45, of the inverse motion). */
-TangentMatrix
-transport(const Eigen::Isometry3d& motion)
-{
-  const Eigen::Isometry3d back = motion.inverse();
-  const Eigen::Matrix3d rotation = back.linear();
-  const Eigen::Vector3d t = back.translation();
-  Eigen::Matrix3d cross;
-  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
-  TangentMatrix result = TangentMatrix::Zero();
-  result.topLeftCorner<3, 3>() = result.bottomRightCorner<3, 3>() = rotation;
-  result.topRightCorner<3, 3>() = cross * rotation;
-  return result;
-}
-
 TangentMatrix
 isotropic(double translation_variance, double rotation_variance)
 {
@@ -78,7 +62,7 @@ KeyframeGraph::growCovariance(const OdometryResult& odometry)
   const Eigen::Isometry3d motion = last_pose_.inverse() * odometry.pose;
   const double length = motion.translation().norm();
   way_ += length;
-  const TangentMatrix moved = transport(motion);
+  const TangentMatrix moved = adjoint(motion.inverse());
   covariance_ = moved * covariance_ * moved.transpose();
   covariance_ += odometry.tracked ? odometry.match.covariance
                                   : isotropic(square(options_.lost_translation),

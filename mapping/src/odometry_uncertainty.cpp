@@ -51,16 +51,6 @@ inverseOf(const Eigen::Matrix<double, Size, Size>& information)
 } // namespace
 
 TangentMatrix
-adjoint(const Eigen::Isometry3d& motion)
-{
-  TangentMatrix result = TangentMatrix::Zero();
-  result.topLeftCorner<3, 3>() = motion.linear();
-  result.bottomRightCorner<3, 3>() = motion.linear();
-  result.topRightCorner<3, 3>() = crossMatrix(motion.translation()) * motion.linear();
-  return result;
-}
-
-TangentMatrix
 NoiseScale::applyTo(const TangentMatrix& covariance) const
 {
   Tangent factors;

@@ -12,10 +12,6 @@
 namespace pcl {
 namespace nurbs {
 
-/** The change of a tangent's frame: T exp(Ad^-1 v) = exp(v) T. */
-TangentMatrix
-adjoint(const Eigen::Isometry3d& motion);
-
 /** How many times smaller errors are than information matrices say. */
 struct NoiseScale {
   double translation = 1.0;

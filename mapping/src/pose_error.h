@@ -31,15 +31,6 @@ retract(const SolverPose& pose, const Tangent& tangent);
 Tangent
 localTangent(const SolverPose& from, const SolverPose& to);
 
-/** The matrix of the cross product. */
-inline Eigen::Matrix3d
-crossMatrix(const Eigen::Vector3d& v)
-{
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 enum class ErrorKind {
   Pose,       /**< translation and 2 sin(angle / 2) along the axis */
   PlaneAngle, /**< translation and the angle about z */

@@ -11,14 +11,6 @@ namespace {
 
 constexpr double kSmallAngle = 1e-4; // where the series is exact to double precision
 
-Eigen::Matrix3d
-skew(const Eigen::Vector3d& v)
-{
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 /** Left Jacobian of SO(3), Barfoot eq. 7.77b. */
 Eigen::Matrix3d
 leftJacobian(const Eigen::Vector3d& rotation)
@@ -29,11 +21,30 @@ leftJacobian(const Eigen::Vector3d& rotation)
   const double a = small ? 0.5 - square / 24.0 : (1.0 - std::cos(angle)) / square;
   const double b =
       small ? 1.0 / 6.0 - square / 120.0 : (angle - std::sin(angle)) / (square * angle);
-  const Eigen::Matrix3d k = skew(rotation);
+  const Eigen::Matrix3d k = crossMatrix(rotation);
   return Eigen::Matrix3d::Identity() + a * k + b * k * k;
 }
 
 } // namespace
+
+Eigen::Matrix3d
+crossMatrix(const Eigen::Vector3d& vector)
+{
+  Eigen::Matrix3d matrix;
+  matrix << 0.0, -vector.z(), vector.y(), vector.z(), 0.0, -vector.x(), -vector.y(),
+      vector.x(), 0.0;
+  return matrix;
+}
+
+TangentMatrix
+adjoint(const Eigen::Isometry3d& motion)
+{
+  TangentMatrix result = TangentMatrix::Zero();
+  result.topLeftCorner<3, 3>() = motion.linear();
+  result.bottomRightCorner<3, 3>() = motion.linear();
+  result.topRightCorner<3, 3>() = crossMatrix(motion.translation()) * motion.linear();
+  return result;
+}
 
 Eigen::Isometry3d
 exponential(const Tangent& tangent)

@@ -48,6 +48,18 @@ TEST(RigidMotion, LogarithmIsItsInverse)
     }
 }
 
+TEST(RigidMotion, AdjointTakesPerturbationsToTheOtherSide)
+{
+  std::mt19937 random(4);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Isometry3d motion = exponential(randomTangent(0.7, random));
+    const Tangent tangent = randomTangent(0.3, random);
+    const Eigen::Isometry3d right = motion * exponential(tangent);
+    const Eigen::Isometry3d left = exponential(adjoint(motion) * tangent) * motion;
+    EXPECT_LT((right.matrix() - left.matrix()).norm(), 1e-12);
+  }
+}
+
 TEST(RigidMotion, OrthonormalAgain)
 {
   std::mt19937 random(3);

@@ -33,6 +33,17 @@ exponential(const Tangent& tangent);
 PCL_NURBS_REGISTRATION_EXPORT Tangent
 logarithm(const Eigen::Isometry3d& motion);
 
+/** \brief The matrix of the cross product: crossMatrix(a) * b = a x b. */
+PCL_NURBS_REGISTRATION_EXPORT Eigen::Matrix3d
+crossMatrix(const Eigen::Vector3d& vector);
+
+/** \brief How a perturbation looks on the other side of a motion: T exp(tangent) =
+ * exp(adjoint(T) tangent) T (Barfoot, State Estimation for Robotics, eq. 7.45). A
+ * covariance before a motion is A C A^T after it, with A = adjoint(motion.inverse()).
+ */
+PCL_NURBS_REGISTRATION_EXPORT TangentMatrix
+adjoint(const Eigen::Isometry3d& motion);
+
 /** \brief The same motion with the rotation made orthonormal, as products of many drift
  * away from it. */
 PCL_NURBS_REGISTRATION_EXPORT Eigen::Isometry3d
