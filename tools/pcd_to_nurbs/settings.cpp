@@ -6,13 +6,13 @@
 #include "command_line.h"
 #include "run_tool.h"
 #include "settings_checks.h"
+#include "word_choice.h"
 
 #include <boost/program_options.hpp>
 
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 
 namespace pcl_nurbs_tools {
 namespace {
@@ -122,21 +122,6 @@ addOutputOptions(Settings& settings,
       "size", po::value(&raw.size)->default_value("1024x768"), "of .png files, pixels");
 }
 
-template <typename Value>
-Value
-choose(const std::string& option,
-       const std::string& word,
-       const std::map<std::string, Value>& values)
-{
-  const auto found = values.find(word);
-  if (found != values.end())
-    return found->second;
-  std::string message = "--" + option + " must be one of";
-  for (const auto& value : values)
-    message += ' ' + value.first;
-  throw ToolError(kUsage, message);
-}
-
 pcl::PinholeIntrinsics
 parseIntrinsics(const std::string& text)
 {
@@ -182,26 +167,26 @@ interpret(const RawOptions& raw, Settings& settings)
     settings.read.intrinsics = parseIntrinsics(raw.intrinsics);
   settings.noise = parseSensor(raw.sensor);
   settings.projection =
-      choose<Organizer::Projection>("projection",
+      chosen<Organizer::Projection>("--projection",
                                     raw.projection,
                                     {{"auto", Organizer::AUTO},
                                      {"spherical", Organizer::SPHERICAL},
                                      {"perspective", Organizer::PERSPECTIVE},
                                      {"plane", Organizer::PLANE}});
   settings.segmentation =
-      choose<SegmentationChoice>("segmentation",
+      chosen<SegmentationChoice>("--segmentation",
                                  raw.segmentation,
                                  {{"surfaces", SegmentationChoice::Surfaces},
                                   {"groups", SegmentationChoice::Groups}});
   settings.reconstruction.knots.criterion =
-      choose<ModelCriterion>("criterion",
+      chosen<ModelCriterion>("--criterion",
                              raw.criterion,
                              {{"aic", ModelCriterion::AIC},
                               {"aicc", ModelCriterion::AICc},
                               {"bic", ModelCriterion::BIC},
                               {"known-noise", ModelCriterion::KnownNoise}});
   settings.output.obj_rational =
-      choose<bool>("obj", raw.obj, {{"mesh", false}, {"rational", true}});
+      chosen<bool>("--obj", raw.obj, {{"mesh", false}, {"rational", true}});
   char rest = 0;
   if (std::sscanf(raw.size.c_str(),
                   "%dx%d%c",

@@ -5,10 +5,10 @@
 
 #include "command_line.h"
 #include "run_tool.h"
+#include "word_choice.h"
 
 #include <boost/program_options.hpp>
 
-#include <map>
 #include <stdexcept>
 #include <vector>
 
@@ -18,21 +18,6 @@ namespace {
 namespace po = boost::program_options;
 using namespace pcl::nurbs;
 
-template <typename Value>
-Value
-valueOf(const std::string& option,
-        const std::string& word,
-        const std::map<std::string, Value>& words)
-{
-  const auto found = words.find(word);
-  if (found != words.end())
-    return found->second;
-  std::string all;
-  for (const auto& [name, value] : words)
-    all += (all.empty() ? "" : ", ") + name;
-  throw ToolError(kUsage, option + " must be one of " + all);
-}
-
 void
 describe(GraphSettings& settings, po::options_description& description)
 {
@@ -40,8 +25,7 @@ describe(GraphSettings& settings, po::options_description& description)
       "init",
       po::value(&settings.init_word)->default_value("file"),
       "where to start: file (its vertices; those that are missing along the edges), "
-      "none "
-      "(along the edges alone), chordal (linear relaxation of all edges), random")(
+      "none (along the edges alone), chordal (linear relaxation of all edges), random")(
       "local",
       po::bool_switch(&settings.local),
       "start there whatever happens; without, from the chordal relaxation where that "
@@ -49,8 +33,7 @@ describe(GraphSettings& settings, po::options_description& description)
       "cost",
       po::value(&settings.cost_word)->default_value("g2o"),
       "what is minimised: g2o (error' * information * error) or sesync (chordal "
-      "distances, "
-      "isotropic)")(
+      "distances, isotropic)")(
       "incremental",
       po::bool_switch(&settings.incremental),
       "add vertex by vertex in the order of their numbers, estimating after "
@@ -94,29 +77,29 @@ interpret(GraphSettings& settings, const std::vector<std::string>& files)
                     "one or two files are needed: IN.g2o [OUT.g2o] (see --help)");
   settings.input = files[0];
   settings.output = files.size() > 1 ? files[1] : "";
-  settings.start = valueOf<StartKind>("--init",
-                                      settings.init_word,
-                                      {{"file", StartKind::File},
-                                       {"none", StartKind::None},
-                                       {"chordal", StartKind::Chordal},
-                                       {"random", StartKind::Random}});
-  settings.solver.cost = valueOf<PoseGraphCost>(
+  settings.start = chosen<StartKind>("--init",
+                                     settings.init_word,
+                                     {{"file", StartKind::File},
+                                      {"none", StartKind::None},
+                                      {"chordal", StartKind::Chordal},
+                                      {"random", StartKind::Random}});
+  settings.solver.cost = chosen<PoseGraphCost>(
       "--cost",
       settings.cost_word,
       {{"g2o", PoseGraphCost::Information}, {"sesync", PoseGraphCost::SeSync}});
   settings.solver.method =
-      valueOf<PoseGraphMethod>("--method",
-                               settings.method_word,
-                               {{"ceres", PoseGraphMethod::Ceres},
-                                {"multifrontal", PoseGraphMethod::Multifrontal}});
-  settings.robust = valueOf<std::optional<RobustMethod>>(
-      "--robust",
-      settings.robust_word,
-      {{"none", std::nullopt},
-       {"consensus", RobustMethod::Consensus},
-       {"gnc", RobustMethod::GraduatedNonConvexity},
-       {"switchable", RobustMethod::Switchable},
-       {"pcm", RobustMethod::PairwiseConsistency}});
+      chosen<PoseGraphMethod>("--method",
+                              settings.method_word,
+                              {{"ceres", PoseGraphMethod::Ceres},
+                               {"multifrontal", PoseGraphMethod::Multifrontal}});
+  settings.robust =
+      chosen<std::optional<RobustMethod>>("--robust",
+                                          settings.robust_word,
+                                          {{"none", std::nullopt},
+                                           {"consensus", RobustMethod::Consensus},
+                                           {"gnc", RobustMethod::GraduatedNonConvexity},
+                                           {"switchable", RobustMethod::Switchable},
+                                           {"pcm", RobustMethod::PairwiseConsistency}});
   if (settings.robust && settings.incremental)
     throw ToolError(kUsage, "--robust and --incremental exclude each other");
   settings.solver.threads = resolveThreads(settings.common.threads);

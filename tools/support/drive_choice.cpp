@@ -4,34 +4,18 @@
 #include "drive_choice.h"
 
 #include "run_tool.h"
+#include "word_choice.h"
 
 #include <pcl/mapping/kitti_calibration.h>
 #include <pcl/mapping/simulator/circuits.h>
 
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 namespace pcl_nurbs_tools {
 namespace {
 
 using namespace pcl::nurbs;
-
-/** What a word stands for. */
-template <typename Value>
-Value
-chosen(const char* what,
-       const std::string& word,
-       const std::map<std::string, Value>& values)
-{
-  const auto found = values.find(word);
-  if (found != values.end())
-    return found->second;
-  std::string words;
-  for (const auto& value : values)
-    words += (words.empty() ? "" : ", ") + value.first;
-  throw ToolError(kUsage, std::string(what) + " must be one of " + words);
-}
 
 Trajectory
 circuitOf(const DriveChoice& choice)
