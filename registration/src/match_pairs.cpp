@@ -43,12 +43,29 @@ void
 MatchPairs::lookUp(const Eigen::Vector3d& place, MatchPair& pair) const
 {
   pair.place = place;
-  const auto nearest = map_.nearest(place, reach_);
+  const auto nearest = nearestTo(place, pair);
   pair.found = nearest.has_value();
   if (!pair.found)
     return;
   pair.target = *nearest;
-  pair.surface = localSurface(map_.surface(*nearest));
+  const auto block = map_.blockAt(*nearest);
+  if (block && pair.block && *block == *pair.block)
+    return;
+  pair.block = block;
+  pair.surface = localSurface(block ? map_.surfaceOfBlock(*block) : PointMoments());
+}
+
+std::optional<Eigen::Vector3d>
+MatchPairs::nearestTo(const Eigen::Vector3d& place, const MatchPair& pair) const
+{
+  constexpr double kMargin = 1.0 + 1e-5; // more than rounding to single precision
+  if (pair.found) {                      // no farther than the point it had is
+    const double known = kMargin * (place - pair.target).norm();
+    if (known < reach_)
+      if (const auto nearest = map_.nearest(place, known))
+        return nearest;
+  }
+  return map_.nearest(place, reach_);
 }
 
 Eigen::Matrix3d

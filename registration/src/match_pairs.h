@@ -8,6 +8,7 @@
 #include <pcl/registration/scan_matching.h>
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace pcl {
@@ -20,6 +21,8 @@ struct MatchPair {
       Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   LocalSurface surface;
+  /** Where the surface is of, see VoxelMap::blockAt(). */
+  std::optional<Eigen::Vector3i> block;
   bool found = false;
 };
 
@@ -72,6 +75,10 @@ public:
 private:
   void
   lookUp(const Eigen::Vector3d& place, MatchPair& pair) const;
+
+  /** The target's point nearest to a place, given the pair that it had. */
+  std::optional<Eigen::Vector3d>
+  nearestTo(const Eigen::Vector3d& place, const MatchPair& pair) const;
 
   PairTerm
   makeTerm(std::size_t i,

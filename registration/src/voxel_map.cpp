@@ -151,25 +151,6 @@ VoxelMap::clear()
   rebuildTable(kFirstSlots);
 }
 
-VoxelMap
-VoxelMap::coarsened() const
-{
-  VoxelMapOptions options = options_;
-  options.voxel_size *= 2.0;
-  options.min_spacing *= 2.0;
-  VoxelMap coarse(options);
-  for (std::size_t i = 0; i < voxels_.size(); ++i) {
-    const Cell cell(voxels_[i].cell.array().unaryExpr([](int c) { return c >> 1; }));
-    const std::int32_t target = coarse.findOrAdd(cell);
-    const Eigen::Vector3d shift = center(voxels_[i].cell) - coarse.center(cell);
-    coarse.voxels_[static_cast<std::size_t>(target)].sums.add(voxels_[i].sums, shift);
-    const Eigen::Vector3f* const first = &points_[firstPoint(static_cast<int>(i))];
-    for (const Eigen::Vector3f* p = first; p != first + voxels_[i].count; ++p)
-      coarse.keep(target, *p + shift.cast<float>());
-  }
-  return coarse;
-}
-
 void
 VoxelMap::scanVoxel(std::int32_t voxel,
                     const Eigen::Vector3d& place,
@@ -263,24 +244,6 @@ VoxelMap::nearest(const Eigen::Vector3d& place, double max_distance) const
   if (!best.found)
     return std::nullopt;
   return place + best.offset.cast<double>();
-}
-
-PointMoments
-VoxelMap::surface(const Eigen::Vector3d& place) const
-{
-  const Eigen::Array3d half = Eigen::Array3d::Constant(0.5 * options_.voxel_size);
-  const auto cell = voxelCell((place.array() - half).matrix(), inverse_size_);
-  if (!cell)
-    return {};
-  const Eigen::Vector3d middle = center(*cell) + half.matrix();
-  MomentSums sums;
-  for (int i = 0; i < 8; ++i) {
-    const Cell corner = *cell + Cell(i & 1, (i >> 1) & 1, (i >> 2) & 1);
-    const std::int32_t voxel = find(corner);
-    if (voxel >= 0)
-      sums.add(voxels_[static_cast<std::size_t>(voxel)].sums, center(corner) - middle);
-  }
-  return sums.moments(middle);
 }
 
 std::vector<Eigen::Vector3d>

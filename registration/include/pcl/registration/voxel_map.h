@@ -97,8 +97,16 @@ public:
   std::optional<Eigen::Vector3d>
   nearest(const Eigen::Vector3d& place, double max_distance) const;
 
-  /** \brief Moments of all points in the block of 2 x 2 x 2 voxels whose centre is
-   * nearest to a place; count 0 where there are none. O(1) */
+  /** \brief The block of 2 x 2 x 2 voxels whose centre is nearest to a place, by its
+   * lowest voxel; none where nothing can be stored. O(1) */
+  std::optional<Eigen::Vector3i>
+  blockAt(const Eigen::Vector3d& place) const;
+
+  /** \brief Moments of all points in a block; count 0 where there are none. O(1) */
+  PointMoments
+  surfaceOfBlock(const Eigen::Vector3i& block) const;
+
+  /** \brief The same for the block at a place. */
   PointMoments
   surface(const Eigen::Vector3d& place) const;
 
