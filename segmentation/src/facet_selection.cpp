@@ -96,9 +96,10 @@ private:
   bestAround(std::size_t cell, double& misfit) const
   {
     std::uint32_t best = around_.front();
-    double least = cells_.residual(cell, best);
+    const ViewSample point = cells_.sample(cell);
+    double least = cells_.residual(point, best);
     for (const std::uint32_t facet : around_) {
-      const double square = cells_.residual(cell, facet);
+      const double square = cells_.residual(point, facet);
       if (square < least) {
         least = square;
         best = facet;

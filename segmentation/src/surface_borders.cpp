@@ -29,11 +29,10 @@ CellFacets::CellFacets(const JoiningInput& input, const KeptEdges& edges)
 }
 
 double
-CellFacets::residual(std::size_t cell, std::uint32_t facet) const
+CellFacets::residual(const ViewSample& sample, std::uint32_t facet) const
 {
   if (facet >= input_.facets.count())
     return kMostSigmas * kMostSigmas; // without a model
-  const ViewSample sample = input_.chart.sample(cell);
   const double off = sample.value - input_.facets.models[facet].surface(sample.basis);
   return std::min(off * off * sample.weight, kMostSigmas * kMostSigmas);
 }
@@ -43,11 +42,12 @@ CellFacets::bestNeighbour(std::size_t cell, double sigmas) const
 {
   std::uint32_t best = kNone;
   double least = sigmas * sigmas;
+  const ViewSample point = sample(cell);
   edges_.forEachNeighbour(cell, [&](std::size_t neighbour) {
     const std::uint32_t facet = facet_[neighbour];
     if (facet == kNone || facet == best)
       return;
-    const double square = residual(cell, facet);
+    const double square = residual(point, facet);
     if (square < least || (square == least && facet < best)) {
       least = square;
       best = facet;
@@ -166,8 +166,9 @@ CellFacets::cheapest(std::size_t cell) const
 {
   std::uint32_t best = facet_[cell];
   double least = std::numeric_limits<double>::infinity();
+  const ViewSample point = sample(cell);
   const auto consider = [&](std::uint32_t facet) {
-    double cost = residual(cell, facet);
+    double cost = residual(point, facet);
     edges_.forEachNeighbour(cell, [&](std::size_t other) {
       cost += facet_[other] == facet ? 0.0 : kNeighbourCost;
     });
