@@ -238,14 +238,17 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
     return false;
   bool found = false;
   bool seen = false; // by a camera
-  for (FrameCandidate& candidate :
-       candidateFrames(input.points.geometry, fitted.positions, fitted.sigma.mean())) {
-    const bool view = candidate.corners != CornerRule::Surface;
+  for (const FrameProposal& proposal :
+       proposeFrames(input.points.geometry, fitted.positions, fitted.sigma.mean())) {
+    const bool view = proposal.corners != CornerRule::Surface;
     if (found && seen && !view)
       break; // a camera's base planes are for what its own view cannot hold
-    seen = seen || candidate.corners == CornerRule::Grid;
+    seen = seen || proposal.corners == CornerRule::Grid;
+    std::optional<FrameCandidate> candidate = proposal.find();
+    if (!candidate)
+      continue;
     FittedSurface attempt;
-    attempt.frame = std::move(candidate);
+    attempt.frame = std::move(*candidate);
     attempt.cells = cells;
     const std::optional<Slab>& slab = attempt.frame.slab;
     if (!fitInFrame(input, slab ? inside(*slab, fitted) : fitted, fitted, attempt))

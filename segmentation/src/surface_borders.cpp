@@ -16,6 +16,8 @@ constexpr int kSweeps = 16;
 constexpr double kNeighbourCost = 1.0;
 /** Residuals beyond this many standard deviations say no more than this. */
 constexpr double kMostSigmas = 6.0;
+/** Cells that are worth a second thread. */
+constexpr std::size_t kMany = 1024;
 
 } // namespace
 
@@ -75,10 +77,10 @@ CellFacets::grow(double sigmas)
       });
   while (!front.empty()) {
     // A ring at a time, so that no facet is ahead of the others.
-    std::vector<std::uint32_t> chosen;
-    chosen.reserve(front.size());
-    for (const std::size_t cell : front)
-      chosen.push_back(bestNeighbour(cell, sigmas));
+    std::vector<std::uint32_t> chosen(front.size());
+#pragma omp parallel for num_threads(input_.options.threads) if (front.size() > kMany)
+    for (std::size_t k = 0; k < front.size(); ++k)
+      chosen[k] = bestNeighbour(front[k], sigmas);
     std::vector<std::size_t> next;
     for (std::size_t k = 0; k < front.size(); ++k) {
       facet_[front[k]] = chosen[k];
