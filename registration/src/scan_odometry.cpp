@@ -23,11 +23,13 @@ constexpr double kPruneShare = 0.05;
 constexpr double kSureShare = 0.7;
 /** ... and with less than this on it and near it, it may be farther away than turns
  * and a short way. */
-constexpr double kDoubtfulShare = 0.5;
-constexpr double kDoubtfulNearShare = 0.7;
+constexpr double kFarShare = 0.5;
+constexpr double kFarNearShare = 0.7;
 /** It is lost with less than this, or with less than half of what is usual. */
 constexpr double kLostShare = 0.25;
 constexpr double kLostRatio = 0.5;
+/** It is in doubt when it has not settled, or with less than this of what is usual. */
+constexpr double kDoubtfulRatio = 0.75;
 /** Weight of the last scan in what is usual. */
 constexpr double kShareUpdate = 0.2;
 /** Another place must fit so much better than the predicted one. */
@@ -62,7 +64,20 @@ fitOf(const MatchResult& match)
 bool
 isAmbiguous(const MatchResult& match)
 {
-  return match.degeneracy.unsupported > 0 && match.near_share >= kDoubtfulNearShare;
+  return match.degeneracy.unsupported > 0 && match.near_share >= kFarNearShare;
+}
+
+/** Whether a scan may have ended in a wrong place. From a start within reach of the
+ * right one, Gauss-Newton settles in a few iterations, and as much of the scan lies on
+ * the map as of the scans before. From elsewhere pairs keep changing and it creeps. A
+ * small share alone says little: a young or sparse map has no surface for many points
+ * that are where they belong. */
+bool
+isDoubtful(const MatchResult& match, double usual_share)
+{
+  return match.inlier_share < kSureShare && !isAmbiguous(match) &&
+         (!match.converged ||
+          match.inlier_share < std::max(kLostShare, kDoubtfulRatio * usual_share));
 }
 
 double
@@ -203,11 +218,12 @@ ScanOdometry::alignScan(const ScanPoints& scan, OdometryResult& result) const
   constexpr PoseSearchRange kTurns;
   constexpr PoseSearchRange kTurnsAndShifts{2.0, 0.35, 8, 2};
   tryStart(scan, result.pose, kTrialIterations, result);
-  if (result.match.inlier_share < kSureShare && !isAmbiguous(result.match))
+  if (isDoubtful(result.match, usual_share_)) {
     searchStarts(scan, kTurns, result);
-  if (result.match.inlier_share < kDoubtfulShare &&
-      result.match.near_share < kDoubtfulNearShare)
-    searchStarts(scan, kTurnsAndShifts, result);
+    if (result.match.inlier_share < kFarShare &&
+        result.match.near_share < kFarNearShare)
+      searchStarts(scan, kTurnsAndShifts, result);
+  }
   if (result.match.converged)
     return;
   MatchOptions options = options_.match;
@@ -228,7 +244,7 @@ ScanOdometry::track(OdometryResult& result)
                    share >= std::max(kLostShare, kLostRatio * usual_share_);
   if (!result.tracked)
     return;
-  usual_share_ += kShareUpdate * (share - usual_share_);
+  usual_share_ += (usual_share_ > 0.0 ? kShareUpdate : 1.0) * (share - usual_share_);
   result.pose = result.match.pose;
   threshold_.addDeviation(predicted.inverse() * result.pose);
   velocity_ = orthonormal(pose_.inverse() * result.pose);
