@@ -4,7 +4,7 @@
 #include <pcl/registration/scan_odometry.h>
 #include <pcl/registration/scan_preprocessing.h>
 
-#include "pose_search.h"
+#include "scan_alignment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,26 +19,10 @@ namespace {
 constexpr int kMostLost = 5;
 /** The map is cleared of far points after so much way, as a share of the range. */
 constexpr double kPruneShare = 0.05;
-/** With so much of a scan on the map there is no better place for it ... */
-constexpr double kSureShare = 0.7;
-/** ... and with less than this on it and near it, it may be farther away than turns
- * and a short way. */
-constexpr double kFarShare = 0.5;
-constexpr double kFarNearShare = 0.7;
-/** It is lost with less than this, or with less than half of what is usual. */
-constexpr double kLostShare = 0.25;
+/** It is lost with less than kLostShare, or with less than half of what is usual. */
 constexpr double kLostRatio = 0.5;
-/** It is in doubt when it has not settled, or with less than this of what is usual. */
-constexpr double kDoubtfulRatio = 0.75;
 /** Weight of the last scan in what is usual. */
 constexpr double kShareUpdate = 0.2;
-/** Another place must fit so much better than the predicted one. */
-constexpr double kBetterFit = 0.05;
-/** Iterations that tell a good start from a bad one. */
-constexpr int kTrialIterations = 15;
-/** Cells of the search, in voxels, and starts that it gives. */
-constexpr double kSearchVoxels = 3.0;
-constexpr std::size_t kSearchStarts = 4;
 
 void
 check(const OdometryOptions& options)
@@ -49,35 +33,6 @@ check(const OdometryOptions& options)
     throw std::invalid_argument("ScanOdometry: spacings must be positive");
   if (options.threads < 1)
     throw std::invalid_argument("ScanOdometry: at least one thread is needed");
-}
-
-/** Share of the scan on the map; less, where other points are near it but not on it. */
-double
-fitOf(const MatchResult& match)
-{
-  return match.near_share > 0.0
-             ? match.inlier_share * match.inlier_share / match.near_share
-             : 0.0;
-}
-
-/** Whether the surroundings hold so little that other places fit as well. */
-bool
-isAmbiguous(const MatchResult& match)
-{
-  return match.degeneracy.unsupported > 0 && match.near_share >= kFarNearShare;
-}
-
-/** Whether a scan may have ended in a wrong place. From a start within reach of the
- * right one, Gauss-Newton settles in a few iterations, and as much of the scan lies on
- * the map as of the scans before. From elsewhere pairs keep changing and it creeps. A
- * small share alone says little: a young or sparse map has no surface for many points
- * that are where they belong. */
-bool
-isDoubtful(const MatchResult& match, double usual_share)
-{
-  return match.inlier_share < kSureShare && !isAmbiguous(match) &&
-         (!match.converged ||
-          match.inlier_share < std::max(kLostShare, kDoubtfulRatio * usual_share));
 }
 
 double
@@ -177,68 +132,20 @@ ScanOdometry::process(const ScanPoints& points, const std::vector<float>& times)
 }
 
 void
-ScanOdometry::tryStart(const ScanPoints& scan,
-                       const Eigen::Isometry3d& start,
-                       int max_iterations,
-                       OdometryResult& result) const
-{
-  MatchOptions options = options_.match;
-  options.max_distance = result.threshold;
-  options.max_iterations = std::min(max_iterations, options.max_iterations);
-  MatchResult match = matchScan(map_, scan, {}, start, options);
-  const bool first = result.match.iterations == 0;
-  if (first || fitOf(match) > fitOf(result.match) + kBetterFit)
-    result.match = std::move(match);
-}
-
-void
-ScanOdometry::searchStarts(const ScanPoints& scan,
-                           const PoseSearchRange& range,
-                           OdometryResult& result) const
-{
-  result.searched = true;
-  Poses around{pose_};
-  if (range.max_shift == 0)
-    around.push_back(result.pose);
-  const Poses starts = searchPoses(map_,
-                                   scan,
-                                   around,
-                                   range,
-                                   kSearchVoxels * options_.map.voxel_size,
-                                   kSearchStarts,
-                                   options_.threads);
-  for (const Eigen::Isometry3d& start : starts)
-    if (result.match.inlier_share < kSureShare)
-      tryStart(scan, start, kTrialIterations, result);
-}
-
-void
-ScanOdometry::alignScan(const ScanPoints& scan, OdometryResult& result) const
-{
-  constexpr PoseSearchRange kTurns;
-  constexpr PoseSearchRange kTurnsAndShifts{2.0, 0.35, 8, 2};
-  tryStart(scan, result.pose, kTrialIterations, result);
-  if (isDoubtful(result.match, usual_share_)) {
-    searchStarts(scan, kTurns, result);
-    if (result.match.inlier_share < kFarShare &&
-        result.match.near_share < kFarNearShare)
-      searchStarts(scan, kTurnsAndShifts, result);
-  }
-  if (result.match.converged)
-    return;
-  MatchOptions options = options_.match;
-  options.max_distance = result.threshold;
-  result.match = matchScan(map_, scan, {}, result.match.pose, options);
-}
-
-void
 ScanOdometry::track(OdometryResult& result)
 {
   const Eigen::Isometry3d predicted = result.pose;
   result.threshold = threshold_.value();
-  alignScan(thinned(voxelSubsample(result.points, options_.match_spacing),
-                    options_.max_match_points),
-            result);
+  MatchOptions match = options_.match;
+  match.max_distance = result.threshold;
+  ScanAlignment alignment =
+      alignScan(map_,
+                thinned(voxelSubsample(result.points, options_.match_spacing),
+                        options_.max_match_points),
+                {predicted, pose_, usual_share_},
+                match);
+  result.match = std::move(alignment.match);
+  result.searched = alignment.searched;
   const double share = result.match.inlier_share;
   result.tracked = result.match.converged &&
                    share >= std::max(kLostShare, kLostRatio * usual_share_);

@@ -135,6 +135,22 @@ TEST(HardDrives, FastTurnsAreSearchedFor)
   EXPECT_GT(searched, 4);
 }
 
+TEST(HardDrives, AJumpIsSearchedFor)
+{
+  std::mt19937 random(8);
+  ScanOdometry odometry(nearOptions());
+  for (int i = 0; i < 4; ++i)
+    EXPECT_TRUE(
+        odometry.process(scanFrom(street(), at(kSpeed * i), 30.0, random)).tracked);
+  Tangent jump;
+  jump << 7.0, -1.5, 0.0, 0.05, 0.0, 0.9;
+  const Eigen::Isometry3d truth = at(kSpeed * 3) * exponential(jump);
+  const auto found = odometry.process(scanFrom(street(), truth, 30.0, random));
+  EXPECT_TRUE(found.tracked);
+  EXPECT_TRUE(found.searched);
+  EXPECT_LT((found.pose.translation() - truth.translation()).norm(), 0.05);
+}
+
 TEST(HardDrives, SparseScansOnTheirWayAreNotSearchedFor)
 {
   std::mt19937 random(7);

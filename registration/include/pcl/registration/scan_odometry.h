@@ -53,15 +53,13 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   rgbd();
 };
 
-struct PoseSearchRange;
-
 /** \brief What became of a scan. */
 struct OdometryResult {
   /** From the sensor's frame to that of the first scan. */
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   /** Whether the pose was measured; else it is the prediction. */
   bool tracked = false;
-  /** Whether the prediction did not lead there and the pose was searched for. */
+  /** Whether the prediction led to a doubtful place, so that others were tried. */
   bool searched = false;
   bool keyframe = false;
   /** Largest distance of pairs that was used. */
@@ -118,22 +116,6 @@ private:
 
   void
   track(OdometryResult& result);
-
-  /** Align from a start; keep the result when more of the scan fits than before. */
-  void
-  tryStart(const ScanPoints& scan,
-           const Eigen::Isometry3d& start,
-           int max_iterations,
-           OdometryResult& result) const;
-
-  /** Look for other starts and try them. */
-  void
-  searchStarts(const ScanPoints& scan,
-               const PoseSearchRange& range,
-               OdometryResult& result) const;
-
-  void
-  alignScan(const ScanPoints& scan, OdometryResult& result) const;
 
   void
   insert(const OdometryResult& result);
