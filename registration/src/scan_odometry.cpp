@@ -21,6 +21,9 @@ constexpr int kMostLost = 5;
 constexpr double kPruneShare = 0.05;
 /** It is lost with less than kLostShare, or with less than half of what is usual. */
 constexpr double kLostRatio = 0.5;
+/** Intervals that tell a velocity, and for which one tells the motion. */
+constexpr double kShortestInterval = 0.1;
+constexpr double kLongestInterval = 10.0;
 /** Weight of the last scan in what is usual. */
 constexpr double kShareUpdate = 0.2;
 
@@ -33,6 +36,15 @@ check(const OdometryOptions& options)
     throw std::invalid_argument("ScanOdometry: spacings must be positive");
   if (options.threads < 1)
     throw std::invalid_argument("ScanOdometry: at least one thread is needed");
+}
+
+/** A part of a motion, or more than all of it, at constant velocity. */
+Eigen::Isometry3d
+scaled(const Eigen::Isometry3d& motion, double factor)
+{
+  if (factor == 1.0)
+    return motion;
+  return exponential(factor * logarithm(motion));
 }
 
 double
@@ -110,17 +122,21 @@ ScanOdometry::prepare(const ScanPoints& points, const std::vector<float>& times)
 }
 
 OdometryResult
-ScanOdometry::process(const ScanPoints& points, const std::vector<float>& times)
+ScanOdometry::process(const ScanPoints& points,
+                      const std::vector<float>& times,
+                      double interval)
 {
   if (!times.empty() && times.size() != points.size())
     throw std::invalid_argument("ScanOdometry: one time per point is needed");
+  if (!(interval >= 0.0))
+    throw std::invalid_argument("ScanOdometry: time does not run backwards");
   OdometryResult result;
   result.points = prepare(points, times);
-  result.pose = pose_ * velocity_;
+  result.pose = pose_ * scaled(velocity_, std::min(interval, kLongestInterval));
   if (map_.empty())
     result.tracked = !result.points.empty();
   else
-    track(result);
+    track(interval, result);
   lost_ = result.tracked ? 0 : lost_ + 1;
   if (lost_ > kMostLost && !result.points.empty())
     map_.clear(), usual_share_ = 0.0;
@@ -132,7 +148,7 @@ ScanOdometry::process(const ScanPoints& points, const std::vector<float>& times)
 }
 
 void
-ScanOdometry::track(OdometryResult& result)
+ScanOdometry::track(double interval, OdometryResult& result)
 {
   const Eigen::Isometry3d predicted = result.pose;
   result.threshold = threshold_.value();
@@ -154,7 +170,8 @@ ScanOdometry::track(OdometryResult& result)
   usual_share_ += (usual_share_ > 0.0 ? kShareUpdate : 1.0) * (share - usual_share_);
   result.pose = result.match.pose;
   threshold_.addDeviation(predicted.inverse() * result.pose);
-  velocity_ = orthonormal(pose_.inverse() * result.pose);
+  if (interval >= kShortestInterval)
+    velocity_ = scaled(orthonormal(pose_.inverse() * result.pose), 1.0 / interval);
 }
 
 void

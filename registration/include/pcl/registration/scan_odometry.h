@@ -102,9 +102,15 @@ public:
    * \param[in] points in the sensor's frame; those that are not finite are dropped
    * \param[in] times of the points within the scan, 0 .. 1; empty when it needs no
    * deskewing
-   * \throws std::invalid_argument when there are times, but not one per point */
+   * \param[in] interval time since the scan before, in the unit of \a times: 1 when
+   * scans follow each other, 2 when one was left out. The sensor is predicted to go on
+   * as fast as before, for ten units at most.
+   * \throws std::invalid_argument when there are times, but not one per point, or for an
+   * interval that is negative or no number */
   OdometryResult
-  process(const ScanPoints& points, const std::vector<float>& times = {});
+  process(const ScanPoints& points,
+          const std::vector<float>& times = {},
+          double interval = 1.0);
 
   /** \brief Points of the local map, in the frame of the first scan. */
   std::vector<Eigen::Vector3d>
@@ -115,7 +121,7 @@ private:
   prepare(const ScanPoints& points, const std::vector<float>& times) const;
 
   void
-  track(OdometryResult& result);
+  track(double interval, OdometryResult& result);
 
   void
   insert(const OdometryResult& result);
@@ -131,7 +137,7 @@ private:
   VoxelMap map_;
   MotionThreshold threshold_;
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d velocity_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d velocity_ = Eigen::Isometry3d::Identity(); // per unit of time
   Eigen::Isometry3d keyframe_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d pruned_at_ = Eigen::Vector3d::Zero();
   bool any_keyframe_ = false;
