@@ -150,8 +150,8 @@ TEST(SlamPipeline, predictsByTheTimeBetweenScans)
   for (const std::ptrdiff_t dropped : {30, 27, 26, 22, 19, 17, 12, 11, 9})
     truth.erase(truth.begin() + dropped);
   SceneDrive source(room(), truth, 4000);
-  const std::size_t blind = 24; // after a gap, and so a prediction
-  const std::size_t torn = 23;
+  const std::size_t blind = 18; // and so a prediction, one step after three
+  const std::size_t torn = 16;
   source.setChange([](std::size_t k, Scan& scan) {
     if (k == torn)
       throw InputError("a file", "torn");
