@@ -69,16 +69,10 @@ extent(const ScanPoints& points)
   return 2.0 * *middle;
 }
 
-/** Share of a thousand points around which the cloud is flat at a voxel size. */
+/** Share of some thousand points around which a map is flat. */
 double
-flatShare(const ScanPoints& points, double voxel_size)
+flatShare(const VoxelMap& map, const ScanPoints& points)
 {
-  VoxelMapOptions options;
-  options.voxel_size = voxel_size;
-  options.max_points = 1;
-  VoxelMap map(options);
-  for (const Eigen::Vector3f& point : points)
-    map.insert(point.cast<double>());
   const std::size_t step = std::max<std::size_t>(points.size() / 1000, 1);
   double flat = 0.0;
   double asked = 0.0;
@@ -120,20 +114,27 @@ thinned(const ScanPoints& points, std::size_t most)
 double
 suitableVoxelSize(const ScanPoints& points)
 {
-  constexpr int kSizes = 8;
-  constexpr double kAlmost = 0.9;
+  constexpr int kLargest = 4;  // sizes are the extent over powers of two; at larger
+  constexpr int kSmallest = 9; // ones a landscape is flat as a whole
+  constexpr double kAlmost = 0.85;
   const double size = points.size() < 10 ? 0.0 : extent(points);
   if (!(size > 0.0))
     return 1.0;
-  std::vector<double> shares;
-  shares.reserve(kSizes);
-  for (int i = 0; i < kSizes; ++i)
-    shares.push_back(flatShare(points, size * std::pow(0.5, i + 2)));
-  const double best = *std::max_element(shares.begin(), shares.end());
-  int smallest = kSizes - 1;
-  while (smallest > 0 && shares[static_cast<std::size_t>(smallest)] < kAlmost * best)
-    --smallest;
-  return size * std::pow(0.5, smallest + 2);
+  VoxelMapOptions options;
+  options.voxel_size = std::ldexp(size, -kSmallest);
+  options.max_points = 1;
+  VoxelMap map(options);
+  for (const Eigen::Vector3f& point : points)
+    map.insert(point.cast<double>());
+  std::vector<double> shares{flatShare(map, points)};
+  for (int i = kSmallest - 1; i >= kLargest; --i) {
+    map = map.coarsened();
+    shares.push_back(flatShare(map, points));
+  }
+  const double enough = kAlmost * *std::max_element(shares.begin(), shares.end());
+  const auto smallest = std::find_if(
+      shares.begin(), shares.end(), [&](double share) { return share >= enough; });
+  return std::ldexp(options.voxel_size, static_cast<int>(smallest - shares.begin()));
 }
 
 VerticalTurn::VerticalTurn(double angle)

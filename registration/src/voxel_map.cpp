@@ -151,6 +151,25 @@ VoxelMap::clear()
   rebuildTable(kFirstSlots);
 }
 
+VoxelMap
+VoxelMap::coarsened() const
+{
+  VoxelMapOptions options = options_;
+  options.voxel_size *= 2.0;
+  options.min_spacing *= 2.0;
+  VoxelMap coarse(options);
+  for (std::size_t i = 0; i < voxels_.size(); ++i) {
+    const Cell cell(voxels_[i].cell.array().unaryExpr([](int c) { return c >> 1; }));
+    const std::int32_t target = coarse.findOrAdd(cell);
+    const Eigen::Vector3d shift = center(voxels_[i].cell) - coarse.center(cell);
+    coarse.voxels_[static_cast<std::size_t>(target)].sums.add(voxels_[i].sums, shift);
+    const Eigen::Vector3f* const first = &points_[firstPoint(static_cast<int>(i))];
+    for (const Eigen::Vector3f* p = first; p != first + voxels_[i].count; ++p)
+      coarse.keep(target, *p + shift.cast<float>());
+  }
+  return coarse;
+}
+
 void
 VoxelMap::scanVoxel(std::int32_t voxel,
                     const Eigen::Vector3d& place,

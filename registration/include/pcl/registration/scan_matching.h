@@ -78,6 +78,14 @@ struct MatchResult {
   /** Its inverse, with zeros in unsupported directions. */
   TangentMatrix information = TangentMatrix::Zero();
   Degeneracy degeneracy;
+
+  /** \brief Share of the scan on the target; less, where other points are near it but
+   * not on it. Tells the better of two alignments of a scan. */
+  double
+  fit() const
+  {
+    return near_share > 0.0 ? inlier_share * inlier_share / near_share : 0.0;
+  }
 };
 
 /** \brief Stands for "not known": 100 m, or 100 m at the mean distance of the points.

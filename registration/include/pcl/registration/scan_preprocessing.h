@@ -51,7 +51,7 @@ PCL_NURBS_REGISTRATION_EXPORT ScanPoints
 thinned(const ScanPoints& points, std::size_t most);
 
 /** \brief A size of voxels that suits a cloud: the smallest at which about as many
- * places look flat as at any other size. O(points * log(extent / spacing))
+ * places look flat as at any other size up to a sixteenth of the extent. O(points)
  * \param[in] points finite points
  * \return metres; 1 for fewer than ten points or no extent */
 PCL_NURBS_REGISTRATION_EXPORT double

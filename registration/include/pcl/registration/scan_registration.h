@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <pcl/registration/scan_matching.h>
+#include <pcl/registration/map_pyramid.h>
 
 #include <pcl/registration/registration.h>
 
@@ -108,7 +108,22 @@ public:
   double
   getVoxelSize() const
   {
-    return map_ ? map_->options().voxel_size : voxel_size_;
+    return map_ ? map_->fine().options().voxel_size : voxel_size_;
+  }
+
+  /** \brief Number of coarser maps that bring rough guesses home before the fine one
+   * decides (default 4), each with voxels of twice the size. More reach farther. */
+  void
+  setCoarserMaps(int count)
+  {
+    coarser_maps_ = std::max(count, 0);
+    map_.reset();
+  }
+
+  int
+  getCoarserMaps() const
+  {
+    return coarser_maps_;
   }
 
   /** \brief Use one point of the source per voxel of this size; 0, the default, uses
@@ -192,7 +207,8 @@ private:
   nurbs::MatchOptions options_;
   double voxel_size_ = 0.0;
   double source_spacing_ = 0.0;
-  std::shared_ptr<const nurbs::VoxelMap> map_;
+  int coarser_maps_ = 4;
+  std::shared_ptr<const nurbs::MapPyramid> map_;
   nurbs::MatchResult result_;
 };
 

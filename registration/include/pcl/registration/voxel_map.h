@@ -86,6 +86,11 @@ public:
   void
   clear();
 
+  /** \brief A map of the same points in voxels, and with spacings, of twice the size.
+   * Moments are of all points ever added; kept are some of the kept ones. O(voxels) */
+  VoxelMap
+  coarsened() const;
+
   /** \brief The kept point nearest to a place, not farther than \a max_distance:
    * exactly so, however many voxels lie in between. O(max_points) where there is one
    * nearby, O((max_distance / voxel_size / 4)^3) where there is none */

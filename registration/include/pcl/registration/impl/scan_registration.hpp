@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace pcl {
 
@@ -68,10 +69,10 @@ ScanRegistration<PointT>::buildMap()
       voxel_size_ > 0.0 ? voxel_size_ : nurbs::suitableVoxelSize(points);
   map_options.max_points = 25;
   map_options.min_spacing = 0.1 * map_options.voxel_size;
-  auto map = std::make_shared<nurbs::VoxelMap>(map_options);
+  nurbs::VoxelMap map(map_options);
   for (const Eigen::Vector3f& point : points)
-    map->insert(point.cast<double>());
-  map_ = map;
+    map.insert(point.cast<double>());
+  map_ = std::make_shared<nurbs::MapPyramid>(std::move(map), coarser_maps_);
 }
 
 template <typename PointT>
@@ -87,12 +88,9 @@ template <typename PointT>
 nurbs::MatchOptions
 ScanRegistration<PointT>::matchOptions() const
 {
-  // So many voxels reach far enough for a rough guess and stay quick to search.
-  constexpr double kDefaultReach = 2.0;
   nurbs::MatchOptions options = options_;
   options.max_iterations = max_iterations_;
-  options.max_distance =
-      std::min(corr_dist_threshold_, kDefaultReach * map_->options().voxel_size);
+  options.max_distance = corr_dist_threshold_;
   if (transformation_epsilon_ > 0.0)
     options.translation_epsilon = std::sqrt(transformation_epsilon_);
   if (transformation_rotation_epsilon_ > 0.0)
@@ -109,7 +107,7 @@ ScanRegistration<PointT>::match(const Matrix4& guess)
     throw std::invalid_argument("the initial guess is not finite");
   if (!map_)
     buildMap();
-  if (map_->empty())
+  if (map_->fine().empty())
     throw std::invalid_argument("no finite point in the target");
   const nurbs::ScanPoints points = sourcePoints();
   if (points.empty())
@@ -117,13 +115,13 @@ ScanRegistration<PointT>::match(const Matrix4& guess)
   const nurbs::MatchOptions options = matchOptions();
   nurbs::ScanPoints normals;
   if (options.metric == nurbs::MatchMetric::PlaneToPlane) {
-    nurbs::VoxelMap own(map_->options());
+    nurbs::VoxelMap own(map_->fine().options());
     for (const Eigen::Vector3f& point : points)
       own.insert(point.cast<double>());
     normals = nurbs::surfaceNormals(own, points, options.threads);
   }
   Eigen::Isometry3d start(guess.template cast<double>());
-  return nurbs::matchScan(*map_, points, normals, nurbs::orthonormal(start), options);
+  return map_->match(points, normals, nurbs::orthonormal(start), options);
 }
 
 template <typename PointT>
