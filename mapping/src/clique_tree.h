@@ -169,7 +169,7 @@ public:
   solution(int variable) const;
 
   /** Columns of the inverse: covariances between all pairs of some variables, in blocks
-   * in the order given. O(path to the root) each. */
+   * in the order given. O(path to the root) each. (CliqueInverse: for many queries.) */
   Eigen::MatrixXd
   inverseOf(const std::vector<int>& variables) const;
 
@@ -195,6 +195,7 @@ public:
 
 private:
   friend class CliqueBuilder;
+  friend class CliqueInverse;
 
   std::vector<int>
   orderOf(const std::vector<int>& variables,

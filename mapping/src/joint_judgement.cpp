@@ -4,11 +4,9 @@
 #include "joint_judgement.h"
 
 #include "joint_distance.h"
-
-#include <Eigen/LU>
+#include "loop_clusters.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pcl {
 namespace nurbs {
@@ -31,17 +29,30 @@ jointDistances(const JudgedGraph& judged, const Judged& loops, int threads)
   return distances;
 }
 
-/** \param[in] share of the limit within which a loop is accepted that was not
+/** Loops that are accepted or rejected together. */
+struct Candidates {
+  Judged loops;
+  /** Of the limit, within which at least half of them must be. */
+  double share = 1.0;
+};
+
+/** Members are accepted within the limit, if at least half of them agree.
  * \return whether a verdict changed */
 bool
-judgeJointly(JudgedGraph& judged, const Judged& loops, double share, int threads)
+judgeTogether(JudgedGraph& judged, const Candidates& candidates, const double* distances)
 {
-  const std::vector<double> distances = jointDistances(judged, loops, threads);
+  const auto agrees = [&](std::size_t k) {
+    return distances[k] <= candidates.share * candidates.loops[k]->limit;
+  };
+  std::size_t agreeing = 0;
+  for (std::size_t k = 0; k < candidates.loops.size(); ++k)
+    agreeing += agrees(k) ? 1 : 0;
   bool changed = false;
-  for (std::size_t k = 0; k < loops.size(); ++k) {
-    JudgedLoop& loop = *loops[k];
+  for (std::size_t k = 0; k < candidates.loops.size(); ++k) {
+    JudgedLoop& loop = *candidates.loops[k];
     const bool before = loop.verdict.accepted;
-    const bool after = distances[k] <= (before ? 1.0 : share) * loop.limit;
+    const bool after = distances[k] <= loop.limit &&
+                       (before || 2 * agreeing >= candidates.loops.size());
     if (before || after)
       judged.judge(loop, LoopCheck::JointDistance, distances[k], loop.limit, after);
     changed = changed || before != after;
@@ -49,81 +60,88 @@ judgeJointly(JudgedGraph& judged, const Judged& loops, double share, int threads
   return changed;
 }
 
-double
-logDeterminant(const TangentMatrix& covariance, bool planar)
+/** \return whether a verdict changed */
+bool
+judgeJointly(JudgedGraph& judged, const std::vector<Candidates>& queue, int threads)
 {
-  return planar ? std::log(planarPart(covariance).determinant())
-                : std::log(covariance.determinant());
-}
-
-/** How much wider the odometry's knowledge of where a loop leads is than the loop's
- * measurement: twice the logarithm of the ratio of the volumes. */
-double
-vagueness(const MeasuredLoop& loop, const CycleError& cycle)
-{
-  return logDeterminant(cycle.covariance, loop.planar) -
-         logDeterminant(loop.measured.covariance, loop.planar);
-}
-
-/** Loops that are accepted, the best known first, and their weights set to zero; those
- * that odometry cannot check keep theirs. */
-Judged
-queueOf(JudgedGraph& judged, const OdometryUncertainty& odometry)
-{
-  std::vector<std::pair<double, JudgedLoop*>> order;
-  for (JudgedLoop& loop : judged.loops) {
-    const auto cycle = cycleError(loop.measured, odometry);
-    if (!loop.verdict.accepted || !cycle)
-      continue;
-    order.emplace_back(vagueness(loop.measured, *cycle), &loop);
-    judged.judge(loop, LoopCheck::JointDistance, 0.0, loop.limit, false);
+  Judged all;
+  for (const Candidates& candidates : queue)
+    all.insert(all.end(), candidates.loops.begin(), candidates.loops.end());
+  const std::vector<double> distances = jointDistances(judged, all, threads);
+  const double* next = distances.data();
+  bool changed = false;
+  for (const Candidates& candidates : queue) {
+    changed = judgeTogether(judged, candidates, next) || changed;
+    next += candidates.loops.size();
   }
-  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
-    return a.first < b.first;
-  });
-  Judged queue;
-  for (const auto& [value, loop] : order)
-    queue.push_back(loop);
+  return changed;
+}
+
+/** Most true loops agree well; of false ones, that lie anywhere, far fewer than within
+ * the limit. So one that nothing confirms has to agree well; if not, it has another
+ * chance in the end. */
+constexpr double kAgreesWell = 0.3;
+
+/** Accepted loops in clusters, the surest first, and their weights set to zero; those
+ * that odometry cannot check keep theirs. */
+std::vector<Candidates>
+queueOf(JudgedGraph& judged,
+        const OdometryUncertainty& odometry,
+        double probability)
+{
+  Judged loops;
+  std::vector<MeasuredLoop> measured;
+  for (JudgedLoop& loop : judged.loops)
+    if (loop.verdict.accepted && cycleError(loop.measured, odometry)) {
+      loops.push_back(&loop);
+      measured.push_back(loop.measured);
+      judged.judge(loop, LoopCheck::JointDistance, 0.0, loop.limit, false);
+    }
+  std::vector<Candidates> queue;
+  for (const LoopCluster& cluster : clusterLoops(measured, odometry, probability)) {
+    queue.push_back({{}, cluster.members.size() > 1 ? 1.0 : kAgreesWell});
+    for (const std::size_t k : cluster.members)
+      queue.back().loops.push_back(loops[k]);
+  }
   return queue;
 }
 
 } // namespace
 
 void
-growByCertainty(JudgedGraph& judged,
-                const OdometryUncertainty& odometry,
-                const RobustOptions& options)
+growByEvidence(JudgedGraph& judged,
+               const OdometryUncertainty& odometry,
+               const RobustOptions& options)
 {
-  const Judged queue = queueOf(judged, odometry);
+  const std::vector<Candidates> queue =
+      queueOf(judged, odometry, options.probability);
   judged.solve();
-  std::size_t batch = 10;
-  std::size_t done = 0;
+  std::size_t batch = 1;
   std::size_t recent = 0; // the last batch is judged again beside the next one
-  while (done < queue.size()) {
+  for (std::size_t done = 0; done < queue.size(); batch *= 2) {
     const std::size_t end = std::min(queue.size(), done + batch);
-    const Judged next(queue.begin() + static_cast<std::ptrdiff_t>(recent),
-                      queue.begin() + static_cast<std::ptrdiff_t>(end));
-    // Most true loops agree well; of false ones, that lie anywhere, far fewer than
-    // within the limit. The others have their chance in the end.
-    constexpr double kAgreesWell = 0.3;
-    if (judgeJointly(judged, next, kAgreesWell, options.solver.threads))
+    const std::vector<Candidates> next(
+        queue.begin() + static_cast<std::ptrdiff_t>(recent),
+        queue.begin() + static_cast<std::ptrdiff_t>(end));
+    if (judgeJointly(judged, next, options.solver.threads))
       judged.solve();
     recent = done;
     done = end;
-    batch *= 2;
   }
 }
 
 void
 checkJointly(JudgedGraph& judged, const RobustOptions& options)
 {
-  Judged all;
+  std::vector<Candidates> all;
   for (JudgedLoop& loop : judged.loops)
-    all.push_back(&loop);
+    all.push_back({{&loop}, 1.0});
   for (int round = 0; round < options.max_joint_rounds; ++round) {
     // In the second half only rejections, so that it ends.
-    const double share = 2 * round < options.max_joint_rounds ? 1.0 : -1.0;
-    if (!judgeJointly(judged, all, share, options.solver.threads))
+    if (2 * round >= options.max_joint_rounds)
+      for (Candidates& candidates : all)
+        candidates.share = -1.0;
+    if (!judgeJointly(judged, all, options.solver.threads))
       return;
     judged.solve();
   }

@@ -8,11 +8,10 @@
 namespace pcl {
 namespace nurbs {
 
-/** Accept loops in the order in which the odometry knows better where they should lead,
- * a few more each time, each after its distance from what odometry and accepted loops
- * say together. */
+/** Accept loops in clusters that confirm each other, those of most evidence first, more
+ * each time, by their distances from what odometry and accepted loops say together. */
 void
-growByCertainty(JudgedGraph& judged,
+growByEvidence(JudgedGraph& judged,
                 const OdometryUncertainty& odometry,
                 const RobustOptions& options);
 

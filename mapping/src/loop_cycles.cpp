@@ -72,10 +72,10 @@ cycleDistance(const MeasuredLoop& loop, const OdometryUncertainty& odometry)
   return squaredDistance(cycle->error, cycle->covariance, loop.planar);
 }
 
-std::optional<double>
-pairDistance(const MeasuredLoop& a,
-             const MeasuredLoop& other,
-             const OdometryUncertainty& odometry)
+std::optional<CycleError>
+pairError(const MeasuredLoop& a,
+          const MeasuredLoop& other,
+          const OdometryUncertainty& odometry)
 {
   const MeasuredLoop b = alongside(other, a, odometry);
   const auto begin = odometry.motion(a.from, b.from);
@@ -83,9 +83,8 @@ pairDistance(const MeasuredLoop& a,
   if (!begin || !end)
     return std::nullopt;
   const UncertainMotion round = *begin * b.measured * *end;
-  return squaredDistance(logarithm(a.measured.T_from_to.inverse() * round.T_from_to),
-                         a.measured.covariance + round.covariance,
-                         a.planar);
+  return CycleError{logarithm(a.measured.T_from_to.inverse() * round.T_from_to),
+                    a.measured.covariance + round.covariance};
 }
 
 NeighbourSets
@@ -96,8 +95,10 @@ consistentPairs(const std::vector<MeasuredLoop>& loops,
   NeighbourSets sets(loops.size(), boost::dynamic_bitset<>(loops.size()));
   for (std::size_t i = 0; i < loops.size(); ++i)
     for (std::size_t j = i + 1; j < loops.size(); ++j) {
-      const auto distance = pairDistance(loops[i], loops[j], odometry);
-      const bool consistent = !distance || *distance <= max_distance;
+      const auto cycle = pairError(loops[i], loops[j], odometry);
+      const bool consistent =
+          !cycle || squaredDistance(cycle->error, cycle->covariance, loops[i].planar) <=
+                        max_distance;
       sets[i][j] = consistent;
       sets[j][i] = consistent;
     }

@@ -37,14 +37,14 @@ cycleError(const MeasuredLoop& loop, const OdometryUncertainty& odometry);
 std::optional<double>
 cycleDistance(const MeasuredLoop& loop, const OdometryUncertainty& odometry);
 
-/** d^2 of the cycle of two loops and the odometry between their ends, the covariances
- * taken as independent (Mangelson, Dominic, Eustice, Vasudevan, Pairwise consistent
+/** Error of the cycle of two loops and the odometry between their ends, at the end of the
+ * first, the covariances taken as independent (Mangelson, Dominic, Eustice, Vasudevan, Pairwise consistent
  * measurement set maximization for robust multi-robot map merging, ICRA 2018); nothing
  * if odometry does not join the ends. O(1). */
-std::optional<double>
-pairDistance(const MeasuredLoop& a,
-             const MeasuredLoop& b,
-             const OdometryUncertainty& odometry);
+std::optional<CycleError>
+pairError(const MeasuredLoop& a,
+          const MeasuredLoop& b,
+          const OdometryUncertainty& odometry);
 
 /** Which pairs have at most this distance, or none. O(n^2). */
 NeighbourSets

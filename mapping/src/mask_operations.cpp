@@ -87,7 +87,7 @@ spread(CellMask& mask, int radius, char value)
         &mask.cells[indexOf(mask, column, 0)], mask.height, mask.width, radius, value);
 }
 
-/** Collects a connected part; takes its cells from the waiting ones. */
+/** Collects a connected part, in no order; takes its cells from the waiting ones. */
 class PartCollector {
 public:
   PartCollector(const GridGeometry& geometry, std::vector<char>& waiting)
@@ -112,7 +112,6 @@ public:
           for (int dc = -gap; dc <= gap; ++dc)
             take(column + dc, row + dr);
     }
-    std::sort(part_.begin(), part_.end());
     return std::move(part_);
   }
 
@@ -192,6 +191,8 @@ connectedParts(const GridGeometry& geometry,
   for (const std::int32_t start : cells)
     if (scratch[static_cast<std::size_t>(start)] != 0)
       parts.push_back(collector.collect(start));
+  for (std::vector<std::int32_t>& part : parts)
+    std::sort(part.begin(), part.end());
   return parts;
 }
 

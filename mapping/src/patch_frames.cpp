@@ -67,13 +67,12 @@ fitsView(const Eigen::Isometry3d& pose, const Eigen::Matrix3Xd& positions)
 /** The camera's view turned so that u runs along a long, slanted segment: knots then
  * follow it instead of crossing it in a staircase. Nothing for segments that are not.
  */
-std::optional<HeightFieldFrame>
-viewAlong(const PinholeIntrinsics& camera,
-          const Eigen::Isometry3d& pose,
-          const Eigen::Matrix3Xd& positions)
+std::optional<FrameCandidate>
+viewAlong(const GridGeometry& geometry, const Eigen::Matrix3Xd& positions)
 {
   constexpr double kLong = 1.5;     // length over width
   constexpr double kSlanted = 0.15; // radians off the image's axes
+  Eigen::Isometry3d pose = sensorPose(geometry);
   const Eigen::Matrix3Xd local = pose.linear().transpose() * positions;
   const Eigen::Matrix2Xd image = local.colwise().hnormalized();
   const Eigen::Matrix2Xd centred = image.colwise() - image.rowwise().mean().eval();
@@ -84,10 +83,33 @@ viewAlong(const PinholeIntrinsics& camera,
   if (solver.eigenvalues()(1) < kLong * kLong * solver.eigenvalues()(0) ||
       smallest < std::sin(kSlanted))
     return std::nullopt;
-  Eigen::Isometry3d turned = pose;
-  turned.rotate(
+  pose.rotate(
       Eigen::AngleAxisd(std::atan2(axis.y(), axis.x()), Eigen::Vector3d::UnitZ()));
-  return HeightFieldFrame::perspective(camera.fx, camera.fx, 0.0, 0.0, turned);
+  const double focal = geometry.intrinsics().fx;
+  return FrameCandidate{HeightFieldFrame::perspective(focal, focal, 0.0, 0.0, pose),
+                        CornerRule::View,
+                        {}};
+}
+
+FrameCandidate
+pixels(const GridGeometry& geometry)
+{
+  const PinholeIntrinsics camera = geometry.intrinsics();
+  return {HeightFieldFrame::perspective(
+              camera.fx, camera.fy, camera.cx, camera.cy, sensorPose(geometry)),
+          CornerRule::Grid,
+          {}};
+}
+
+/** Pinhole view along the mean direction, if that holds the points. */
+std::optional<FrameCandidate>
+viewInto(const Eigen::Matrix3Xd& positions)
+{
+  const Eigen::Isometry3d view = viewOf(positions);
+  if (!fitsView(view, positions))
+    return std::nullopt;
+  return FrameCandidate{
+      HeightFieldFrame::perspective(1.0, 1.0, 0.0, 0.0, view), CornerRule::View, {}};
 }
 
 HeightFieldFrame
@@ -124,41 +146,47 @@ planeIn(const Slab& slab, const Eigen::Matrix3Xd& positions)
       basePlane(count < 3 ? positions : Eigen::Matrix3Xd(inside.leftCols(count))));
 }
 
+/** Plane of all points: a map's own one, otherwise their base plane. */
+FrameCandidate
+planeOfAll(const GridGeometry& geometry, const Eigen::Matrix3Xd& positions)
+{
+  const bool map = geometry.projection == GridProjection::plane;
+  return {map ? mapPlane(geometry) : HeightFieldFrame::plane(basePlane(positions)),
+          CornerRule::Surface,
+          {}};
+}
+
+/** The same for the largest sheet. */
+FrameCandidate
+planeOfSheet(const GridGeometry& geometry,
+             const Eigen::Matrix3Xd& positions,
+             double noise)
+{
+  const bool map = geometry.projection == GridProjection::plane;
+  const Slab slab = slabOf(positions, noise);
+  return {
+      map ? mapPlane(geometry) : planeIn(slab, positions), CornerRule::Surface, slab};
+}
+
 } // namespace
 
-std::vector<FrameCandidate>
-candidateFrames(const GridGeometry& geometry,
-                const Eigen::Matrix3Xd& positions,
-                double noise)
+std::vector<FrameProposal>
+proposeFrames(const GridGeometry& geometry,
+              const Eigen::Matrix3Xd& positions,
+              double noise)
 {
-  std::vector<FrameCandidate> result;
+  std::vector<FrameProposal> result;
   if (geometry.projection == GridProjection::perspective) {
-    const PinholeIntrinsics camera = geometry.intrinsics();
+    result.push_back({CornerRule::Grid, [&] { return pixels(geometry); }});
     result.push_back(
-        {HeightFieldFrame::perspective(
-             camera.fx, camera.fy, camera.cx, camera.cy, sensorPose(geometry)),
-         CornerRule::Grid,
-         {}});
-    if (const auto turned = viewAlong(camera, sensorPose(geometry), positions))
-      result.push_back({*turned, CornerRule::View, {}});
+        {CornerRule::View, [&] { return viewAlong(geometry, positions); }});
   }
-  const Slab slab = slabOf(positions, noise);
-  if (geometry.projection == GridProjection::plane) {
-    result.push_back({mapPlane(geometry), CornerRule::Surface, {}});
-    result.push_back({mapPlane(geometry), CornerRule::Surface, slab});
-  }
-  else {
-    result.push_back(
-        {HeightFieldFrame::plane(basePlane(positions)), CornerRule::Surface, {}});
-    result.push_back({planeIn(slab, positions), CornerRule::Surface, slab});
-  }
-  if (geometry.projection == GridProjection::spherical) {
-    const Eigen::Isometry3d view = viewOf(positions);
-    if (fitsView(view, positions))
-      result.push_back({HeightFieldFrame::perspective(1.0, 1.0, 0.0, 0.0, view),
-                        CornerRule::View,
-                        {}});
-  }
+  result.push_back(
+      {CornerRule::Surface, [&] { return planeOfAll(geometry, positions); }});
+  result.push_back({CornerRule::Surface,
+                    [&, noise] { return planeOfSheet(geometry, positions, noise); }});
+  if (geometry.projection == GridProjection::spherical)
+    result.push_back({CornerRule::View, [&] { return viewInto(positions); }});
   return result;
 }
 

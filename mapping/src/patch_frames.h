@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,19 +34,27 @@ struct FrameCandidate {
   std::optional<Slab> slab;
 };
 
+/** \brief A frame that is found when it is its turn: most segments need but the first.
+ */
+struct FrameProposal {
+  CornerRule corners;
+  /** Nothing when the frame would not differ from an earlier one or does not suit. */
+  std::function<std::optional<FrameCandidate>()> find;
+};
+
 /** \brief Frames in which the points of a segment, or those of its largest sheet, may
  * be a scalar field, best guess first: a camera's pixels, then for long segments the
- * same view turned along them, then base planes; for a laser the robust plane of the
- * largest sheet, the base plane, then the pinhole view along the mean direction; a
- * map's own plane, for all points, then for the largest sheet; for a mere lattice the
- * base plane, then the robust one.
- * \param[in] geometry raster of the cloud
- * \param[in] positions points of the segment, metres
+ * same view turned along them, then base planes; for a laser the base plane, that of
+ * the largest sheet, then the pinhole view along the mean direction; a map's own plane,
+ * for all points, then for the largest sheet; for a mere lattice the base plane, then
+ * the robust one.
+ * \param[in] geometry raster of the cloud; referred to
+ * \param[in] positions points of the segment, metres; referred to
  * \param[in] noise standard deviation of their depth, metres */
-std::vector<FrameCandidate>
-candidateFrames(const GridGeometry& geometry,
-                const Eigen::Matrix3Xd& positions,
-                double noise);
+std::vector<FrameProposal>
+proposeFrames(const GridGeometry& geometry,
+              const Eigen::Matrix3Xd& positions,
+              double noise);
 
 } // namespace nurbs
 } // namespace pcl

@@ -18,6 +18,7 @@ public:
   {
     if (!equations.factor(0.0))
       throw std::invalid_argument("the factors do not determine all poses");
+    equations.invert();
   }
 
   int

@@ -171,6 +171,12 @@ PoseGraphEquations::minimize(const PoseGraphOptions& options, PoseGraphSummary& 
   summary.converged = summary.converged || damping > kMostDamping;
 }
 
+void
+PoseGraphEquations::invert()
+{
+  inverse_.emplace(tree_);
+}
+
 Eigen::MatrixXd
 PoseGraphEquations::covarianceOf(const std::vector<int>& poses) const
 {
@@ -178,7 +184,7 @@ PoseGraphEquations::covarianceOf(const std::vector<int>& poses) const
   variables.reserve(poses.size());
   for (const int pose : poses)
     variables.push_back(variables_[static_cast<std::size_t>(pose)]);
-  return tree_.inverseOf(variables);
+  return inverse_->of(variables);
 }
 
 } // namespace nurbs

@@ -3,10 +3,12 @@
 
 #pragma once
 
-#include "clique_tree.h"
+#include "clique_inverse.h"
 #include "pose_graph_problem.h"
 
 #include <pcl/mapping/pose_graph_solver.h>
+
+#include <optional>
 
 namespace pcl {
 namespace nurbs {
@@ -32,8 +34,11 @@ public:
   void
   minimize(const PoseGraphOptions& options, PoseGraphSummary& summary);
 
-  /** Covariance of poses, by index, none of which is held: columns of the inverse of
-   * the matrix that was factored. */
+  /** Invert the matrix that was factored, for covarianceOf(). */
+  void
+  invert();
+
+  /** Covariance of poses, by index, none of which is held. */
   Eigen::MatrixXd
   covarianceOf(const std::vector<int>& poses) const;
 
@@ -46,6 +51,7 @@ private:
 
   PoseGraphProblem& problem_;
   CliqueTree tree_{1, false};
+  std::optional<CliqueInverse> inverse_;
   std::vector<int> variables_; // by pose, -1 if held
   std::vector<int> poses_;     // by variable
   std::vector<int> factors_;   // by term; -1 - variable for its damping

@@ -71,9 +71,21 @@ private:
       options.cost = PoseGraphCost::Information;
       options.method = PoseGraphMethod::Multifrontal;
       options.function_tolerance = std::max(tolerance, options.function_tolerance);
+      takeBetterStart();
       optimize(judged_.graph, options);
       ++summary_.solutions;
     };
+  }
+
+  /** Poses that loops have bent which are rejected by now may not find back by steps:
+   * begin where the accepted loops alone lead if they are nearer to their minimum. */
+  void
+  takeBetterStart()
+  {
+    PoseGraph chordal = judged_.graph;
+    initializeChordal(chordal);
+    if (costOf(chordal) < costOf(judged_.graph))
+      judged_.graph = std::move(chordal);
   }
 
   void
@@ -93,7 +105,7 @@ private:
   {
     switch (options_.method) {
     case RobustMethod::Consensus:
-      return growByCertainty(judged_, odometry, options_);
+      return growByEvidence(judged_, odometry, options_);
     case RobustMethod::GraduatedNonConvexity:
       return rejectByGraduatedNonConvexity(judged_, options_);
     case RobustMethod::Switchable:

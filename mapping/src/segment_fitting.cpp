@@ -49,26 +49,54 @@ inside(const Slab& slab, const FitPoints& points)
   return result;
 }
 
+/** Signed distances from a fitted surface and the foot points. */
+Eigen::VectorXd
+distancesFrom(const FittedSurface& surface,
+              const Eigen::Matrix3Xd& positions,
+              Eigen::Matrix2Xd& parameters)
+{
+  constexpr double kLastStep = 1e-4; // off by far less than any noise
+  const NurbsSurface& fitted = surface.fit.surface;
+  parameters.resize(2, positions.cols());
+  for (Eigen::Index k = 0; k < positions.cols(); ++k) {
+    const Eigen::Vector3d local = surface.frame.frame.toLocal(positions.col(k));
+    parameters(0, k) = fitted.knotsU().clampToDomain(local.x());
+    parameters(1, k) = fitted.knotsV().clampToDomain(local.y());
+  }
+  return orthogonalDistances(fitted, positions, parameters, 1, kLastStep);
+}
+
+/** About how many points are within tolerance, by a sample of them. */
+double
+countInliers(const ReconstructionInput& input,
+             const FitPoints& points,
+             const FittedSurface& surface)
+{
+  constexpr Eigen::Index kSample = 2048;
+  const Eigen::Index every = points.positions.cols() / kSample + 1;
+  const Eigen::Index count = (points.positions.cols() + every - 1) / every;
+  Eigen::Matrix3Xd positions(3, count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    positions.col(k) = points.positions.col(k * every);
+  Eigen::Matrix2Xd parameters;
+  const Eigen::VectorXd distances = distancesFrom(surface, positions, parameters);
+  Eigen::Index inliers = 0;
+  for (Eigen::Index k = 0; k < count; ++k)
+    inliers +=
+        std::abs(distances(k)) <= input.toleranceAt(points.sigma(k * every)) ? 1 : 0;
+  return static_cast<double>(inliers) / static_cast<double>(count) *
+         static_cast<double>(points.positions.cols());
+}
+
 /** Distances of all cells from the fitted surface, and who is within tolerance. */
 void
 judge(const ReconstructionInput& input, const FitPoints& all, FittedSurface& surface)
 {
-  const NurbsSurface& fitted = surface.fit.surface;
-  surface.parameters.resize(2, all.positions.cols());
-  for (Eigen::Index k = 0; k < all.positions.cols(); ++k) {
-    const Eigen::Vector3d local = surface.frame.frame.toLocal(all.positions.col(k));
-    surface.parameters(0, k) = fitted.knotsU().clampToDomain(local.x());
-    surface.parameters(1, k) = fitted.knotsV().clampToDomain(local.y());
-  }
-  surface.distances = orthogonalDistances(fitted, all.positions, surface.parameters);
+  surface.distances = distancesFrom(surface, all.positions, surface.parameters);
   surface.inlier.resize(surface.cells.size());
-  surface.num_inliers = 0;
-  for (std::size_t k = 0; k < surface.cells.size(); ++k) {
+  for (std::size_t k = 0; k < surface.cells.size(); ++k)
     surface.inlier[k] = std::abs(surface.distances(static_cast<Eigen::Index>(k))) <=
                         input.tolerance(surface.cells[k]);
-    const bool held_out = input.held_out[static_cast<std::size_t>(surface.cells[k])];
-    surface.num_inliers += surface.inlier[k] && !held_out ? 1 : 0;
-  }
 }
 
 /** How many neighbouring points err alike, at first: a Kinect's disparities are matched
@@ -98,7 +126,7 @@ fitInFront(const HeightFieldFrame& frame,
            SurfaceFitOptions options)
 {
   constexpr double kStiffest = 1e-4;
-  options.measure = false; // judge() measures, and the held-out points as well
+  options.measure = false; // judge() does, and the held-out points as well
   while (true) {
     try {
       return fitHeightField(frame, knots.first, knots.second, points, options);
@@ -115,7 +143,7 @@ fitInFront(const HeightFieldFrame& frame,
 bool
 fitOnce(const ReconstructionInput& input,
         const FitPoints& fitted,
-        const FitPoints& all,
+        const FitPoints& judged,
         const KnotSearchOptions& options,
         const FittedSurface* coarser,
         FittedSurface& surface)
@@ -137,7 +165,7 @@ fitOnce(const ReconstructionInput& input,
   } catch (const std::domain_error&) {
     return false; // behind the camera, or not determined: another frame may do
   }
-  judge(input, all, surface);
+  surface.num_inliers = countInliers(input, judged, surface);
   return true;
 }
 
@@ -147,7 +175,7 @@ fitOnce(const ReconstructionInput& input,
 bool
 fitInFrame(const ReconstructionInput& input,
            const FitPoints& fitted,
-           const FitPoints& all,
+           const FitPoints& judged,
            FittedSurface& surface)
 {
   constexpr double kExplained = 0.97;
@@ -156,20 +184,19 @@ fitInFrame(const ReconstructionInput& input,
   const bool automatic = options.points_per_sample == 0.0;
   if (automatic)
     options.points_per_sample = typicalCorrelation(input.points.geometry.projection);
-  if (!fitOnce(input, fitted, all, options, nullptr, surface))
+  if (!fitOnce(input, fitted, judged, options, nullptr, surface))
     return false;
   const double count = static_cast<double>(fitted.sigma.size());
   // Beyond the limit of samples less correlation would change nothing.
   while (automatic && options.points_per_sample > 1.0 &&
          count / options.points_per_sample < options.max_samples &&
-         static_cast<double>(surface.num_inliers) < kExplained * count) {
+         surface.num_inliers < kExplained * count) {
     options.points_per_sample = std::max(1.0, 0.25 * options.points_per_sample);
     FittedSurface finer;
     finer.frame = surface.frame;
     finer.cells = surface.cells;
-    if (!fitOnce(input, fitted, all, options, &surface, finer) ||
-        static_cast<double>(finer.num_inliers) <
-            static_cast<double>(surface.num_inliers) + kWorthwhile * count)
+    if (!fitOnce(input, fitted, judged, options, &surface, finer) ||
+        finer.num_inliers < surface.num_inliers + kWorthwhile * count)
       break;
     surface = std::move(finer);
   }
@@ -197,10 +224,9 @@ ReconstructionInput::sigma(std::int32_t cell) const
 }
 
 double
-ReconstructionInput::tolerance(std::int32_t cell) const
+ReconstructionInput::toleranceAt(double sigma) const
 {
-  return options.tolerance > 0.0 ? options.tolerance
-                                 : options.tolerance_sigmas * sigma(cell);
+  return options.tolerance > 0.0 ? options.tolerance : options.tolerance_sigmas * sigma;
 }
 
 bool
@@ -210,31 +236,35 @@ fitCells(const ReconstructionInput& input, const CellSet& cells, FittedSurface& 
   const FitPoints fitted = gather(input, cells, false);
   if (fitted.positions.cols() == 0 || areALine(fitted))
     return false;
-  const FitPoints all = gather(input, cells, true);
   bool found = false;
   bool seen = false; // by a camera
-  for (FrameCandidate& candidate :
-       candidateFrames(input.points.geometry, fitted.positions, fitted.sigma.mean())) {
-    const bool view = candidate.corners != CornerRule::Surface;
+  for (const FrameProposal& proposal :
+       proposeFrames(input.points.geometry, fitted.positions, fitted.sigma.mean())) {
+    const bool view = proposal.corners != CornerRule::Surface;
     if (found && seen && !view)
       break; // a camera's base planes are for what its own view cannot hold
-    seen = seen || candidate.corners == CornerRule::Grid;
+    seen = seen || proposal.corners == CornerRule::Grid;
+    std::optional<FrameCandidate> candidate = proposal.find();
+    if (!candidate)
+      continue;
     FittedSurface attempt;
-    attempt.frame = std::move(candidate);
+    attempt.frame = std::move(*candidate);
     attempt.cells = cells;
     const std::optional<Slab>& slab = attempt.frame.slab;
-    if (!fitInFrame(input, slab ? inside(*slab, fitted) : fitted, all, attempt))
+    if (!fitInFrame(input, slab ? inside(*slab, fitted) : fitted, fitted, attempt))
       continue;
     if (!found || attempt.num_inliers > surface.num_inliers)
       surface = std::move(attempt);
     found = true;
-    if (static_cast<double>(surface.num_inliers) >=
-        kGoodEnough * static_cast<double>(fitted.sigma.size()))
+    if (surface.num_inliers >= kGoodEnough * static_cast<double>(fitted.sigma.size()))
       break;
   }
+  if (!found)
+    return false;
+  judge(input, gather(input, cells, true), surface);
   surface.noise =
       std::sqrt(fitted.sigma.squaredNorm() / static_cast<double>(fitted.sigma.size()));
-  return found;
+  return true;
 }
 
 } // namespace nurbs

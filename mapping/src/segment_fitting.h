@@ -27,7 +27,7 @@ struct FittedSurface {
   Eigen::VectorXd distances;   /**< signed orthogonal distance of each, metres */
   std::vector<bool> inlier;    /**< whether each is within tolerance */
   double noise = 0.0;          /**< root mean square of the sensor's noise, metres */
-  std::size_t num_inliers = 0; /**< of the cells that are not held out */
+  double num_inliers = 0.0;    /**< about, of the cells that are not held out */
 };
 
 /** \brief What every fit of a reconstruction needs. */
@@ -48,9 +48,17 @@ struct ReconstructionInput {
   double
   sigma(std::int32_t cell) const;
 
-  /** \brief Largest distance of a point from its patch, metres. */
+  /** \brief Largest distance from its patch of a point whose noise has this standard
+   * deviation, metres. */
   double
-  tolerance(std::int32_t cell) const;
+  toleranceAt(double sigma) const;
+
+  /** \brief The same of a cell's point. */
+  double
+  tolerance(std::int32_t cell) const
+  {
+    return toleranceAt(sigma(cell));
+  }
 };
 
 /** \brief Fit one surface to a set of cells, in the frame that explains most of them.

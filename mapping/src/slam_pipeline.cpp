@@ -83,16 +83,20 @@ SlamPipeline::track(const ReadScan& scan)
 {
   if (!scan.fault.empty())
     return {scan.number, scan.stamp, scan.fault, {}};
-  // Odometry undoes the motion between the two scans before this one.
+  // Odometry's unit of time is the sensor's period: where scans were left out or could
+  // not be read, the sensor went on for longer.
+  const double period = feed_.period();
   std::vector<float> times;
-  if (last_interval_ > 0.0)
+  double interval = 1.0;
+  if (period > 0.0) {
     for (const float time : scan.times)
       times.push_back(
-          static_cast<float>(options_.odometry.reference_time + time / last_interval_));
-  last_interval_ = processed_ > 0 ? scan.stamp - last_stamp_ : 0.0;
+          static_cast<float>(options_.odometry.reference_time + time / period));
+    if (last_stamp_)
+      interval = (scan.stamp - *last_stamp_) / period;
+  }
   last_stamp_ = scan.stamp;
-  ++processed_;
-  return {scan.number, scan.stamp, {}, odometry_.process(scan.points, times)};
+  return {scan.number, scan.stamp, {}, odometry_.process(scan.points, times, interval)};
 }
 
 SlamPipeline::TrackedScan

@@ -70,20 +70,16 @@ OccupancyGrid::placed(const ScanPoints& scan, const Eigen::Isometry3d& pose) con
 }
 
 int
-OccupancyGrid::fit(const ScanPoints& placed, const Eigen::Vector3f& shift) const
+OccupancyGrid::fit(const ScanPoints& scan, const Eigen::Isometry3d& pose) const
 {
   constexpr auto kLast = static_cast<float>(kEdge);
   int sum = 0;
-  for (const Eigen::Vector3f& point : placed) {
-    const float x = point.x() + shift.x();
-    const float y = point.y() + shift.y();
-    const float z = point.z() + shift.z();
-    if (x >= 0.0F && y >= 0.0F && z >= 0.0F && x < kLast && y < kLast && z < kLast)
-      sum +=
-          levels_[(static_cast<std::size_t>(z) * kRow + static_cast<std::size_t>(y)) *
-                      kRow +
-                  static_cast<std::size_t>(x)];
-  }
+  for (const Eigen::Vector3f& point : placed(scan, pose))
+    if (point.x() >= 0.0F && point.y() >= 0.0F && point.z() >= 0.0F &&
+        point.x() < kLast && point.y() < kLast && point.z() < kLast)
+      sum += level(static_cast<std::size_t>(point.x()),
+                   static_cast<std::size_t>(point.y()),
+                   static_cast<std::size_t>(point.z()));
   return sum;
 }
 

@@ -33,20 +33,21 @@ public:
     return cell_size_;
   }
 
+  /** What a point in a cell adds. */
+  std::uint8_t
+  level(std::size_t x, std::size_t y, std::size_t z) const
+  {
+    return levels_[(z * kEdge + y) * kEdge + x];
+  }
+
   /** Points at a pose, in cells from the grid's corner. */
   ScanPoints
   placed(const ScanPoints& scan, const Eigen::Isometry3d& pose) const;
 
-  /** Sum over placed points of how near to occupied cells they are, when all are
-   * shifted by so many cells; points outside count nothing. */
+  /** Sum over a scan's points at a pose of how near to occupied cells they are; points
+   * outside count nothing. */
   int
-  fit(const ScanPoints& placed, const Eigen::Vector3f& shift) const;
-
-  int
-  fit(const ScanPoints& scan, const Eigen::Isometry3d& pose) const
-  {
-    return fit(placed(scan, pose), Eigen::Vector3f::Zero());
-  }
+  fit(const ScanPoints& scan, const Eigen::Isometry3d& pose) const;
 
 private:
   void

@@ -4,7 +4,7 @@
 #include "pose_search.h"
 
 #include "chunked_sum.h"
-#include "occupancy_grid.h"
+#include "shift_lattice.h"
 
 #include <pcl/registration/scan_preprocessing.h>
 
@@ -17,10 +17,10 @@ namespace {
 
 /** Points that are looked at, at most ... */
 constexpr std::size_t kMostPoints = 256;
-/** ... and first, to see whether the others are worth a look: */
-constexpr std::size_t kFirstPoints = 48;
-/** whether they fit so well, relative to the best. */
-constexpr double kWorthwhile = 0.7;
+/** ... and first, to see which turns are worth a look at all of them: */
+constexpr std::size_t kFirstPoints = 64;
+/** the best so many. */
+constexpr std::size_t kWorthwhile = 256;
 /** Of the grid's half edge, as far as points are used. */
 constexpr double kReach = 0.85;
 /** Candidates of the lattice that are improved. */
@@ -65,53 +65,67 @@ rotationLattice(double max_angle, double step)
   return vectors;
 }
 
-/** Shifts in cells, of the starts from the first one and around each of them. */
-std::vector<Eigen::Vector3f>
-latticeShifts(const Poses& starts, const PoseSearchRange& range, double cell_size)
+void
+sortByFit(Candidates& candidates)
 {
-  std::vector<Eigen::Vector3f> shifts;
-  const int most = range.max_shift;
-  const int step = range.shift_step;
-  for (const Eigen::Isometry3d& start : starts) {
-    const Eigen::Vector3f first =
-        ((start.translation() - starts.front().translation()) / cell_size)
-            .cast<float>();
-    for (int x = -most; x <= most; x += step)
-      for (int y = -most; y <= most; y += step)
-        for (int z = -most; z <= most; z += step)
-          shifts.emplace_back(first + Eigen::Vector3i(x, y, z).cast<float>());
-  }
-  return shifts;
+  std::stable_sort(candidates.begin(),
+                   candidates.end(),
+                   [](const auto& a, const auto& b) { return a.fit > b.fit; });
 }
 
-/** A pose with the shift that suits it best. */
+/** The first start, turned. */
+Poses
+turnedPoses(const Eigen::Isometry3d& start, const PoseSearchRange& range)
+{
+  Poses poses;
+  for (const Eigen::Vector3d& vector :
+       rotationLattice(range.max_angle, range.angle_step)) {
+    Tangent turn = Tangent::Zero();
+    turn.tail<3>() = vector;
+    poses.push_back(start * exponential(turn));
+  }
+  return poses;
+}
+
+/** A pose with the shift from one of the places that suits it best. */
 Candidate
 bestShift(const OccupancyGrid& grid,
+          const ShiftLattice& lattice,
           const ScanPoints& scan,
-          const std::vector<Eigen::Vector3f>& shifts,
+          const Poses& starts,
           const Eigen::Isometry3d& pose)
 {
-  const ScanPoints placed = grid.placed(scan, pose);
-  const ScanPoints some = thinned(placed, kFirstPoints);
-  const double worthwhile = kWorthwhile * static_cast<double>(some.size()) /
-                            static_cast<double>(placed.size());
-  int best = -1;
-  Eigen::Vector3f shift = Eigen::Vector3f::Zero();
-  for (const Eigen::Vector3f& other : shifts) {
-    if (grid.fit(some, other) < worthwhile * best)
+  Candidate best{pose, -1};
+  for (const Eigen::Isometry3d& start : starts) {
+    Eigen::Isometry3d there = pose;
+    there.translation() = start.translation();
+    const ShiftFit found = lattice.best(grid.placed(scan, there));
+    if (found.fit <= best.fit)
       continue;
-    const int fit = grid.fit(placed, other);
-    if (fit > best) {
-      best = fit;
-      shift = other;
-    }
+    there.translation() += grid.cellSize() * found.shift.cast<double>();
+    best = {there, found.fit};
   }
-  Candidate candidate{pose, best};
-  candidate.pose.translation() += grid.cellSize() * shift.cast<double>();
-  return candidate;
+  return best;
 }
 
-/** The best shift of each turn of the first start. */
+Candidates
+shiftAll(const OccupancyGrid& grid,
+         const ShiftLattice& lattice,
+         const ScanPoints& scan,
+         const Poses& starts,
+         const Poses& poses,
+         int threads)
+{
+  Candidates candidates(poses.size());
+  const auto work = [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i)
+      candidates[i] = bestShift(grid, lattice, scan, starts, poses[i]);
+  };
+  forChunks(poses.size(), threads, work);
+  return candidates;
+}
+
+/** The best shifts of the best turns of the first start. */
 Candidates
 searchLattice(const OccupancyGrid& grid,
               const ScanPoints& scan,
@@ -119,26 +133,21 @@ searchLattice(const OccupancyGrid& grid,
               const PoseSearchRange& range,
               int threads)
 {
-  const auto turns = rotationLattice(range.max_angle, range.angle_step);
-  const auto shifts = latticeShifts(starts, range, grid.cellSize());
-  Candidates candidates(turns.size());
-  const auto work = [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Tangent turn = Tangent::Zero();
-      turn.tail<3>() = turns[i];
-      candidates[i] = bestShift(grid, scan, shifts, starts.front() * exponential(turn));
-    }
-  };
-  forChunks(turns.size(), threads, work);
+  const ShiftLattice lattice(grid, range.max_shift, range.shift_step);
+  Candidates candidates = shiftAll(grid,
+                                   lattice,
+                                   thinned(scan, kFirstPoints),
+                                   starts,
+                                   turnedPoses(starts.front(), range),
+                                   threads);
+  sortByFit(candidates);
+  Poses worthwhile;
+  for (const Candidate& candidate : candidates)
+    if (worthwhile.size() < kWorthwhile)
+      worthwhile.push_back(candidate.pose);
+  candidates = shiftAll(grid, lattice, scan, starts, worthwhile, threads);
+  sortByFit(candidates);
   return candidates;
-}
-
-void
-sortByFit(Candidates& candidates)
-{
-  std::stable_sort(candidates.begin(),
-                   candidates.end(),
-                   [](const auto& a, const auto& b) { return a.fit > b.fit; });
 }
 
 /** Climb along the axes of the pose, in smaller and smaller steps. */
@@ -208,7 +217,6 @@ searchPoses(const VoxelMap& map,
     return {};
   const OccupancyGrid grid(map.points(), starts.front().translation(), cell_size);
   Candidates candidates = searchLattice(grid, points, starts, range, threads);
-  sortByFit(candidates);
   candidates = different(candidates, cell_size, 0.8 * range.angle_step, kImproved);
   for (Candidate& candidate : candidates) {
     candidate.fit = grid.fit(points, candidate.pose);

@@ -4,7 +4,7 @@
 #include <pcl/registration/scan_odometry.h>
 #include <pcl/registration/scan_preprocessing.h>
 
-#include "pose_search.h"
+#include "scan_alignment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,24 +19,13 @@ namespace {
 constexpr int kMostLost = 5;
 /** The map is cleared of far points after so much way, as a share of the range. */
 constexpr double kPruneShare = 0.05;
-/** With so much of a scan on the map there is no better place for it ... */
-constexpr double kSureShare = 0.7;
-/** ... and with less than this on it and near it, it may be farther away than turns
- * and a short way. */
-constexpr double kDoubtfulShare = 0.5;
-constexpr double kDoubtfulNearShare = 0.7;
-/** It is lost with less than this, or with less than half of what is usual. */
-constexpr double kLostShare = 0.25;
+/** It is lost with less than kLostShare, or with less than half of what is usual. */
 constexpr double kLostRatio = 0.5;
+/** Intervals that tell a velocity, and for which one tells the motion. */
+constexpr double kShortestInterval = 0.1;
+constexpr double kLongestInterval = 10.0;
 /** Weight of the last scan in what is usual. */
 constexpr double kShareUpdate = 0.2;
-/** Another place must fit so much better than the predicted one. */
-constexpr double kBetterFit = 0.05;
-/** Iterations that tell a good start from a bad one. */
-constexpr int kTrialIterations = 15;
-/** Cells of the search, in voxels, and starts that it gives. */
-constexpr double kSearchVoxels = 3.0;
-constexpr std::size_t kSearchStarts = 4;
 
 void
 check(const OdometryOptions& options)
@@ -49,20 +38,13 @@ check(const OdometryOptions& options)
     throw std::invalid_argument("ScanOdometry: at least one thread is needed");
 }
 
-/** Share of the scan on the map; less, where other points are near it but not on it. */
-double
-fitOf(const MatchResult& match)
+/** A part of a motion, or more than all of it, at constant velocity. */
+Eigen::Isometry3d
+scaled(const Eigen::Isometry3d& motion, double factor)
 {
-  return match.near_share > 0.0
-             ? match.inlier_share * match.inlier_share / match.near_share
-             : 0.0;
-}
-
-/** Whether the surroundings hold so little that other places fit as well. */
-bool
-isAmbiguous(const MatchResult& match)
-{
-  return match.degeneracy.unsupported > 0 && match.near_share >= kDoubtfulNearShare;
+  if (factor == 1.0)
+    return motion;
+  return exponential(factor * logarithm(motion));
 }
 
 double
@@ -140,17 +122,21 @@ ScanOdometry::prepare(const ScanPoints& points, const std::vector<float>& times)
 }
 
 OdometryResult
-ScanOdometry::process(const ScanPoints& points, const std::vector<float>& times)
+ScanOdometry::process(const ScanPoints& points,
+                      const std::vector<float>& times,
+                      double interval)
 {
   if (!times.empty() && times.size() != points.size())
     throw std::invalid_argument("ScanOdometry: one time per point is needed");
+  if (!(interval >= 0.0))
+    throw std::invalid_argument("ScanOdometry: time does not run backwards");
   OdometryResult result;
   result.points = prepare(points, times);
-  result.pose = pose_ * velocity_;
+  result.pose = pose_ * scaled(velocity_, std::min(interval, kLongestInterval));
   if (map_.empty())
     result.tracked = !result.points.empty();
   else
-    track(result);
+    track(interval, result);
   lost_ = result.tracked ? 0 : lost_ + 1;
   if (lost_ > kMostLost && !result.points.empty())
     map_.clear(), usual_share_ = 0.0;
@@ -162,76 +148,30 @@ ScanOdometry::process(const ScanPoints& points, const std::vector<float>& times)
 }
 
 void
-ScanOdometry::tryStart(const ScanPoints& scan,
-                       const Eigen::Isometry3d& start,
-                       int max_iterations,
-                       OdometryResult& result) const
-{
-  MatchOptions options = options_.match;
-  options.max_distance = result.threshold;
-  options.max_iterations = std::min(max_iterations, options.max_iterations);
-  MatchResult match = matchScan(map_, scan, {}, start, options);
-  const bool first = result.match.iterations == 0;
-  if (first || fitOf(match) > fitOf(result.match) + kBetterFit)
-    result.match = std::move(match);
-}
-
-void
-ScanOdometry::searchStarts(const ScanPoints& scan,
-                           const PoseSearchRange& range,
-                           OdometryResult& result) const
-{
-  result.searched = true;
-  Poses around{pose_};
-  if (range.max_shift == 0)
-    around.push_back(result.pose);
-  const Poses starts = searchPoses(map_,
-                                   scan,
-                                   around,
-                                   range,
-                                   kSearchVoxels * options_.map.voxel_size,
-                                   kSearchStarts,
-                                   options_.threads);
-  for (const Eigen::Isometry3d& start : starts)
-    if (result.match.inlier_share < kSureShare)
-      tryStart(scan, start, kTrialIterations, result);
-}
-
-void
-ScanOdometry::alignScan(const ScanPoints& scan, OdometryResult& result) const
-{
-  constexpr PoseSearchRange kTurns;
-  constexpr PoseSearchRange kTurnsAndShifts{2.0, 0.35, 8, 2};
-  tryStart(scan, result.pose, kTrialIterations, result);
-  if (result.match.inlier_share < kSureShare && !isAmbiguous(result.match))
-    searchStarts(scan, kTurns, result);
-  if (result.match.inlier_share < kDoubtfulShare &&
-      result.match.near_share < kDoubtfulNearShare)
-    searchStarts(scan, kTurnsAndShifts, result);
-  if (result.match.converged)
-    return;
-  MatchOptions options = options_.match;
-  options.max_distance = result.threshold;
-  result.match = matchScan(map_, scan, {}, result.match.pose, options);
-}
-
-void
-ScanOdometry::track(OdometryResult& result)
+ScanOdometry::track(double interval, OdometryResult& result)
 {
   const Eigen::Isometry3d predicted = result.pose;
   result.threshold = threshold_.value();
-  alignScan(thinned(voxelSubsample(result.points, options_.match_spacing),
-                    options_.max_match_points),
-            result);
+  MatchOptions match = options_.match;
+  match.max_distance = result.threshold;
+  ScanAlignment alignment =
+      alignScan(map_,
+                thinned(voxelSubsample(result.points, options_.match_spacing),
+                        options_.max_match_points),
+                {predicted, pose_, usual_share_},
+                match);
+  result.match = std::move(alignment.match);
+  result.searched = alignment.searched;
   const double share = result.match.inlier_share;
   result.tracked = result.match.converged &&
                    share >= std::max(kLostShare, kLostRatio * usual_share_);
   if (!result.tracked)
     return;
-  usual_share_ += kShareUpdate * (share - usual_share_);
+  usual_share_ += (usual_share_ > 0.0 ? kShareUpdate : 1.0) * (share - usual_share_);
   result.pose = result.match.pose;
   threshold_.addDeviation(predicted.inverse() * result.pose);
-  velocity_ = orthonormal(pose_.inverse() * result.pose);
+  if (interval >= kShortestInterval)
+    velocity_ = scaled(orthonormal(pose_.inverse() * result.pose), 1.0 / interval);
 }
 
 void

@@ -18,11 +18,23 @@ using Cells = std::vector<std::size_t>;
 class FacetSelection {
 public:
   FacetSelection(const JoiningInput& input, const KeptEdges& edges, CellFacets& cells)
-      : input_(input), edges_(edges), cells_(cells), members_(input.facets.count())
+      : input_(input),
+        edges_(edges),
+        cells_(cells),
+        size_(input.facets.count(), 0),
+        members_(input.facets.count())
   {
-    for (std::size_t cell = 0; cell < input.points.size(); ++cell)
-      if (cells.labels()[cell] != CellFacets::kNone)
-        members_[cells.labels()[cell]].push_back(cell);
+    for (const std::uint32_t facet : cells.labels())
+      if (facet != CellFacets::kNone)
+        ++size_[facet];
+    // Strips along a fold are long, but as narrow as the blocks.
+    const GridGeometry& grid = input_.points.geometry;
+    most_ = kStripWidth * static_cast<std::size_t>(grid.width + grid.height);
+    for (std::size_t cell = 0; cell < input.points.size(); ++cell) {
+      const std::uint32_t facet = cells.labels()[cell];
+      if (facet != CellFacets::kNone && size_[facet] <= most_)
+        members_[facet].push_back(cell);
+    }
   }
 
   void
@@ -31,14 +43,10 @@ public:
     std::vector<std::uint32_t> order(members_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return members_[a].size() < members_[b].size();
+      return size_[a] < size_[b];
     });
-    // Strips along a fold are long, but as narrow as the blocks.
-    const GridGeometry& grid = input_.points.geometry;
-    const std::size_t most =
-        kStripWidth * static_cast<std::size_t>(grid.width + grid.height);
     for (const std::uint32_t facet : order)
-      if (members_[facet].size() <= most)
+      if (size_[facet] <= most_)
         tryWithout(facet);
   }
 
@@ -63,8 +71,10 @@ private:
     }
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       cells_.assign(members_[facet][k], chosen[k]);
-      members_[chosen[k]].push_back(members_[facet][k]);
+      if (++size_[chosen[k]] <= most_)
+        members_[chosen[k]].push_back(members_[facet][k]);
     }
+    size_[facet] = 0;
     members_[facet].clear();
   }
 
@@ -96,9 +106,10 @@ private:
   bestAround(std::size_t cell, double& misfit) const
   {
     std::uint32_t best = around_.front();
-    double least = cells_.residual(cell, best);
+    const ViewSample point = cells_.sample(cell);
+    double least = cells_.residual(point, best);
     for (const std::uint32_t facet : around_) {
-      const double square = cells_.residual(cell, facet);
+      const double square = cells_.residual(point, facet);
       if (square < least) {
         least = square;
         best = facet;
@@ -111,7 +122,9 @@ private:
   const JoiningInput& input_;
   const KeptEdges& edges_;
   CellFacets& cells_;
-  std::vector<Cells> members_;
+  std::size_t most_ = 0;          // cells of a facet that may be dropped
+  std::vector<std::size_t> size_; // cells of each facet
+  std::vector<Cells> members_;    // of those that may be dropped
   std::vector<std::uint32_t> around_;
 };
 

@@ -143,27 +143,24 @@ ForestGreedy::enqueueWaiting()
 {
   std::vector<std::uint32_t> again;
   again.swap(waiting_);
+  std::vector<double> keys; // and a little more
+  keys.reserve(again.size());
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  std::size_t kept = 0;
   for (const std::uint32_t number : again) {
     const WeightedEdge edge = edges_[number];
     const std::uint32_t a = groupOf(edge.a);
     const std::uint32_t b = groupOf(edge.b);
     if (a == b)
       continue;
-    const double key = gainOf(edge) + balanceOf(nodes_[a], nodes_[b]);
-    low = std::min(low, key);
-    high = std::max(high, key);
-    again[kept++] = number;
+    keys.push_back(gainBound(edge) + balanceOf(nodes_[a], nodes_[b]));
+    low = std::min(low, keys.back());
+    high = std::max(high, keys.back());
+    again[keys.size() - 1] = number;
   }
-  again.resize(kept);
   setRange(low, high);
-  for (const std::uint32_t number : again) {
-    const WeightedEdge edge = edges_[number];
-    enqueue(number,
-            gainOf(edge) + balanceOf(nodes_[groupOf(edge.a)], nodes_[groupOf(edge.b)]));
-  }
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    enqueue(again[k], keys[k]);
 }
 
 void
@@ -277,9 +274,10 @@ ForestGreedy::select(std::uint32_t number)
   const std::uint32_t b = groupOf(edge.b);
   SelfLoop& loop_a = nodes_[edge.a].loop;
   SelfLoop& loop_b = nodes_[edge.b].loop;
-  scaled_rate_ += scaledEdgeGain(loop_a, loop_b, edge.weight);
+  const double before = loop_a.term + loop_b.term;
   loop_a.shorten(edge.weight);
   loop_b.shorten(edge.weight);
+  scaled_rate_ += before - loop_a.term - loop_b.term - 2.0 * xLogX(edge.weight);
   selected_.push_back(number);
   --groups_left_;
   if (nodes_[a].size < nodes_[b].size)

@@ -15,6 +15,8 @@ namespace nurbs {
 namespace {
 
 constexpr double kTurn = 2.0 * M_PI;
+/** Points that choose among projections, and that fit the raster of the chosen one. */
+constexpr std::size_t kTrialSample = 2000;
 constexpr std::size_t kSample = 20000;
 constexpr double kWorst = std::numeric_limits<double>::infinity();
 
@@ -73,11 +75,12 @@ fitLine(const Samples& samples)
 /** Chart coordinates of a grid's points under one projection and frame. */
 class Candidate {
 public:
-  Candidate(const PointList& points, const GridGeometry& geometry) : grid_(geometry)
+  Candidate(const PointList& points, const GridGeometry& geometry, std::size_t sample)
+      : grid_(geometry)
   {
     // Pairs of neighbours from every row are enough.
     const auto width = static_cast<std::size_t>(grid_.width);
-    const std::size_t stride = 2 * (points.size() / kSample + 1);
+    const std::size_t stride = 2 * (points.size() / sample + 1);
     for (std::size_t row = 0; row * width < points.size(); ++row)
       // Rows take turns, so that every column is seen.
       for (std::size_t first = 2 * row % stride; first < width; first += stride)
@@ -242,14 +245,12 @@ estimateGridGeometry(const PointList& points, int width, int height, int threads
     }
   std::vector<double> residuals(grids.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t k = 0; k < grids.size(); ++k) {
-    Candidate candidate(points, grids[k]);
-    residuals[k] = candidate.fit();
-    grids[k] = candidate.grid();
-  }
+  for (std::size_t k = 0; k < grids.size(); ++k)
+    residuals[k] = Candidate(points, grids[k], kTrialSample).fit();
   const auto least = std::min_element(residuals.begin(), residuals.end());
-  return *least < kAccepted ? grids[static_cast<std::size_t>(least - residuals.begin())]
-                            : fitLattice(points, empty);
+  const auto best = static_cast<std::size_t>(least - residuals.begin());
+  Candidate candidate(points, grids[best], kSample);
+  return candidate.fit() < kAccepted ? candidate.grid() : fitLattice(points, empty);
 }
 
 } // namespace nurbs

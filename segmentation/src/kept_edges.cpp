@@ -22,18 +22,18 @@ class JumpTest {
 public:
   JumpTest(const GridPoints& points,
            const std::vector<float>& inverse_depth,
+           const std::vector<float>& depth_noise,
            const std::vector<float>& direction_noise,
            const GridGraph& graph,
-           const SensorNoise& noise,
            float sigmas,
            int direction)
       : depth_(points.depth),
         target_(graph.target(direction)),
         source_(graph.source(direction)),
         inverse_depth_(inverse_depth),
+        depth_noise_(depth_noise),
         direction_noise_(direction_noise),
         spacing_(points.geometry, direction),
-        noise_(noise),
         sigmas_(sigmas * std::sqrt(6.0F)) // deviation of a second difference
   {
   }
@@ -42,12 +42,9 @@ public:
   operator()(std::size_t i) const
   {
     const auto j = static_cast<std::size_t>(target_[i]);
-    const float near = std::min(depth_[i], depth_[j]);
-    const auto sigma = static_cast<float>(noise_.sigma(near));
-    const float sideways = directionNoise(i, j);
-    const float tolerance =
-        sigmas_ * (sideways == 0.0F ? sigma : std::hypot(sigma, sideways));
-    const float spacing = spacing_(near);
+    const std::size_t near = depth_[j] < depth_[i] ? j : i;
+    const float tolerance = sigmas_ * noiseAt(near, directionNoise(i, j));
+    const float spacing = spacing_(depth_[near]);
     float least = std::numeric_limits<float>::infinity();
     float most = 0.0F;
     const auto look = [&](std::int32_t before, std::size_t here, std::size_t after) {
@@ -65,6 +62,13 @@ public:
   }
 
 private:
+  float
+  noiseAt(std::size_t cell, float sideways) const
+  {
+    const float sigma = depth_noise_[cell];
+    return sideways == 0.0F ? sigma : std::sqrt(sigma * sigma + sideways * sideways);
+  }
+
   /** Of the flatter side: beyond a jump the surface may be steep. */
   float
   directionNoise(std::size_t i, std::size_t j) const
@@ -102,9 +106,9 @@ private:
   const std::vector<std::int32_t>& target_;
   const std::vector<std::int32_t>& source_;
   const std::vector<float>& inverse_depth_; // empty where depth itself is linear
+  const std::vector<float>& depth_noise_;
   const std::vector<float>& direction_noise_;
   GridSpacing spacing_;
-  SensorNoise noise_;
   float sigmas_;
 };
 
@@ -123,12 +127,21 @@ KeptEdges::KeptEdges(const GridPoints& points,
     for (const float depth : points.depth)
       inverse_depth.push_back(1.0F / depth);
   }
+  std::vector<float> depth_noise;
+  depth_noise.reserve(points.size());
+  for (const float depth : points.depth)
+    depth_noise.push_back(static_cast<float>(noise.sigma(depth)));
 #pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
   for (int d = 0; d < graph.numDirections(); ++d) {
     std::vector<std::uint8_t>& kept = kept_[static_cast<std::size_t>(d)];
     kept.assign(graph.numCells(), 0);
-    const JumpTest jumps(
-        points, inverse_depth, direction_noise, graph, noise, options.jump_sigmas, d);
+    const JumpTest jumps(points,
+                         inverse_depth,
+                         depth_noise,
+                         direction_noise,
+                         graph,
+                         options.jump_sigmas,
+                         d);
     const std::vector<std::int32_t>& target = graph.target(d);
     const std::vector<float>& weight = graph.weight(d);
     for (std::size_t i = 0; i < kept.size(); ++i)

@@ -28,20 +28,17 @@ public:
   {
   }
 
+  /** Along rows (0) or columns (1). */
   std::vector<NoiseBin>
-  run()
+  run(int direction)
   {
     constexpr std::size_t kSample = 100000;
     const auto width = static_cast<std::size_t>(points_.geometry.width);
     const auto height = static_cast<std::size_t>(points_.geometry.height);
     const std::size_t stride = points_.size() / kSample + 1;
-    for (std::size_t row = 0; row < height; row += stride)
-      walk(row * width, 1, width, 0);
-    // A camera matches windows: its rows say all. The rings of a laser are aligned to
-    // each other less well than the pulses of a ring.
-    if (!camera_)
-      for (std::size_t column = 0; column < width; column += stride)
-        walk(column, width, height, 1);
+    const std::size_t lines = direction == 0 ? height : width;
+    for (std::size_t line = 0; line < lines; line += stride)
+      direction == 0 ? walk(line * width, 1, width, 0) : walk(line, width, height, 1);
     return std::move(bins_);
   }
 
@@ -100,7 +97,8 @@ private:
       return static_cast<double>(
           direction == 0 ? cell % static_cast<std::size_t>(points_.geometry.width)
                          : cell / static_cast<std::size_t>(points_.geometry.width));
-    return points_.geometry.chart(points_.point(cell).cast<double>())(direction);
+    return points_.geometry.chartCoordinate(points_.point(cell).cast<double>(),
+                                            direction);
   }
 
   double
@@ -149,12 +147,34 @@ private:
   std::vector<NoiseBin> bins_;
 };
 
+void
+append(const std::vector<float>& from, std::vector<float>& to)
+{
+  to.insert(to.end(), from.begin(), from.end());
+}
+
 } // namespace
 
 std::vector<NoiseBin>
-sampleNoise(const GridPoints& points, float nearest, float farthest)
+sampleNoise(const GridPoints& points, float nearest, float farthest, int threads)
 {
-  return NoiseSampler(points, nearest, farthest).run();
+  // A camera matches windows: its rows say all. The rings of a laser are aligned to
+  // each other less well than the pulses of a ring.
+  const bool camera = points.geometry.projection == GridProjection::perspective;
+  const int directions = camera ? 1 : 2;
+  std::array<std::vector<NoiseBin>, 2> found;
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+  for (int direction = 0; direction < directions; ++direction)
+    found[static_cast<std::size_t>(direction)] =
+        NoiseSampler(points, nearest, farthest).run(direction);
+  for (std::size_t k = 0; k < found[1].size(); ++k) {
+    NoiseBin& bin = found[0][k];
+    append(found[1][k].depths, bin.depths);
+    append(found[1][k].deviations[1], bin.deviations[1]);
+    append(found[1][k].steps, bin.steps);
+    bin.ties += found[1][k].ties;
+  }
+  return std::move(found[0]);
 }
 
 } // namespace nurbs

@@ -26,7 +26,7 @@ struct NoiseBin {
  * one bin for all where depth is a height, for it says nothing about the sensor. O(n).
  */
 std::vector<NoiseBin>
-sampleNoise(const GridPoints& points, float nearest, float farthest);
+sampleNoise(const GridPoints& points, float nearest, float farthest, int threads);
 
 } // namespace nurbs
 } // namespace pcl

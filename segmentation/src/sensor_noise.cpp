@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace pcl {
@@ -142,14 +143,16 @@ SensorNoise::hdl64()
 }
 
 SensorNoise
-SensorNoise::estimate(const GridPoints& points)
+SensorNoise::estimate(const GridPoints& points, int threads)
 {
+  if (threads < 1)
+    throw std::invalid_argument("SensorNoise: there must be a thread");
   std::vector<float> depths = validDepths(points);
   if (depths.empty())
     return {};
   const double typical = std::abs(quantile(depths, 0.5));
   const auto [nearest, farthest] = std::minmax_element(depths.begin(), depths.end());
-  std::vector<NoiseBin> bins = nurbs::sampleNoise(points, *nearest, *farthest);
+  std::vector<NoiseBin> bins = nurbs::sampleNoise(points, *nearest, *farthest, threads);
   const bool scattered = points.geometry.max_gap > 1 && points.geometry.row_v.empty();
   return fitBins(bins, scattered ? kQuarter : kHalf, 0.001 * typical);
 }

@@ -16,6 +16,8 @@ constexpr int kSweeps = 16;
 constexpr double kNeighbourCost = 1.0;
 /** Residuals beyond this many standard deviations say no more than this. */
 constexpr double kMostSigmas = 6.0;
+/** Cells that are worth a second thread. */
+constexpr std::size_t kMany = 1024;
 
 } // namespace
 
@@ -29,11 +31,10 @@ CellFacets::CellFacets(const JoiningInput& input, const KeptEdges& edges)
 }
 
 double
-CellFacets::residual(std::size_t cell, std::uint32_t facet) const
+CellFacets::residual(const ViewSample& sample, std::uint32_t facet) const
 {
   if (facet >= input_.facets.count())
     return kMostSigmas * kMostSigmas; // without a model
-  const ViewSample sample = input_.chart.sample(cell);
   const double off = sample.value - input_.facets.models[facet].surface(sample.basis);
   return std::min(off * off * sample.weight, kMostSigmas * kMostSigmas);
 }
@@ -43,11 +44,12 @@ CellFacets::bestNeighbour(std::size_t cell, double sigmas) const
 {
   std::uint32_t best = kNone;
   double least = sigmas * sigmas;
+  const ViewSample point = sample(cell);
   edges_.forEachNeighbour(cell, [&](std::size_t neighbour) {
     const std::uint32_t facet = facet_[neighbour];
     if (facet == kNone || facet == best)
       return;
-    const double square = residual(cell, facet);
+    const double square = residual(point, facet);
     if (square < least || (square == least && facet < best)) {
       least = square;
       best = facet;
@@ -75,10 +77,10 @@ CellFacets::grow(double sigmas)
       });
   while (!front.empty()) {
     // A ring at a time, so that no facet is ahead of the others.
-    std::vector<std::uint32_t> chosen;
-    chosen.reserve(front.size());
-    for (const std::size_t cell : front)
-      chosen.push_back(bestNeighbour(cell, sigmas));
+    std::vector<std::uint32_t> chosen(front.size());
+#pragma omp parallel for num_threads(input_.options.threads) if (front.size() > kMany)
+    for (std::size_t k = 0; k < front.size(); ++k)
+      chosen[k] = bestNeighbour(front[k], sigmas);
     std::vector<std::size_t> next;
     for (std::size_t k = 0; k < front.size(); ++k) {
       facet_[front[k]] = chosen[k];
@@ -166,8 +168,9 @@ CellFacets::cheapest(std::size_t cell) const
 {
   std::uint32_t best = facet_[cell];
   double least = std::numeric_limits<double>::infinity();
+  const ViewSample point = sample(cell);
   const auto consider = [&](std::uint32_t facet) {
-    double cost = residual(cell, facet);
+    double cost = residual(point, facet);
     edges_.forEachNeighbour(cell, [&](std::size_t other) {
       cost += facet_[other] == facet ? 0.0 : kNeighbourCost;
     });

@@ -42,10 +42,17 @@ public:
     return facet_;
   }
 
+  /** A point as residual() wants it. */
+  ViewSample
+  sample(std::size_t cell) const
+  {
+    return input_.chart.sample(cell);
+  }
+
   /** Square of a point's distance from a facet, in units of the noise, but bounded;
    * facets without a model are as far as it gets. */
   double
-  residual(std::size_t cell, std::uint32_t facet) const;
+  residual(const ViewSample& sample, std::uint32_t facet) const;
 
   void
   assign(std::size_t cell, std::uint32_t facet)

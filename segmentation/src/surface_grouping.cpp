@@ -125,7 +125,7 @@ facetsOf(const SurfaceCriterion& criterion,
          const std::vector<BlockSize>& sizes,
          SurfaceNodes& nodes)
 {
-  SurfaceMerging merging(criterion);
+  SurfaceMerging merging(criterion, options.threads);
   merging.add(nodes, nodes.links(0, options.threads));
   merging.mergeWhileBetter();
   for (std::size_t rate = 1; rate < sizes.size(); ++rate) {

@@ -21,6 +21,7 @@ SurfaceMerging::add(const SurfaceNodes& nodes, const std::vector<NodeLink>& link
   sets_.grow(nodes.count());
   groups_.resize(nodes.count());
   link_to_.resize(nodes.count(), kNoLink);
+#pragma omp parallel for num_threads(threads_)
   for (std::uint32_t node = first; node < nodes.count(); ++node) {
     groups_[node].sums = nodes.sums(node);
     groups_[node].model = criterion_.best(nodes.sums(node));
@@ -116,8 +117,13 @@ void
 SurfaceMerging::push(std::uint32_t number)
 {
   double priority = 0.0;
-  if (!evaluate(number, priority))
-    return;
+  if (evaluate(number, priority))
+    queue(number, priority);
+}
+
+void
+SurfaceMerging::queue(std::uint32_t number, double priority)
+{
   links_[number].queued = true;
   queue_.push({priority, number, 0});
 }
@@ -125,12 +131,21 @@ SurfaceMerging::push(std::uint32_t number)
 void
 SurfaceMerging::pushChanged()
 {
+  std::vector<std::uint32_t> changed;
   for (std::uint32_t number = 0; number < links_.size(); ++number) {
     const Link& link = links_[number];
     if (link.alive && !link.queued &&
         (link.points == 0.0 || link.changes != changesOf(link)))
-      push(number);
+      changed.push_back(number);
   }
+  std::vector<double> priority(changed.size());
+  std::vector<std::uint8_t> pays(changed.size());
+#pragma omp parallel for num_threads(threads_)
+  for (std::size_t k = 0; k < changed.size(); ++k)
+    pays[k] = evaluate(changed[k], priority[k]) ? 1 : 0;
+  for (std::size_t k = 0; k < changed.size(); ++k)
+    if (pays[k] != 0)
+      queue(changed[k], priority[k]);
 }
 
 void

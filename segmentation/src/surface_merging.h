@@ -25,7 +25,11 @@ public:
     std::vector<std::uint32_t> links;
   };
 
-  explicit SurfaceMerging(const SurfaceCriterion& criterion) : criterion_(criterion) {}
+  /** \param[in] threads number of threads; the result does not depend on it */
+  explicit SurfaceMerging(const SurfaceCriterion& criterion, int threads = 1)
+      : criterion_(criterion), threads_(threads)
+  {
+  }
 
   /** Add the nodes from those known on, each a group of its own, and their links. */
   void
@@ -103,6 +107,9 @@ private:
   push(std::uint32_t link);
 
   void
+  queue(std::uint32_t link, double priority);
+
+  void
   pushChanged();
 
   void
@@ -118,6 +125,7 @@ private:
   combineLinks(std::uint32_t from, std::uint32_t into);
 
   const SurfaceCriterion& criterion_;
+  int threads_;
   DisjointSets sets_;
   std::vector<Group> groups_;
   std::vector<Link> links_;

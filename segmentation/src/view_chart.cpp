@@ -59,9 +59,15 @@ ViewChart::ViewChart(const GridPoints& points,
   const bool lattice = points.geometry.projection == GridProjection::lattice;
   spacing_ = lattice ? 0.0 : static_cast<double>(spacing.constant);
   spacing_per_depth_ = angular_ ? static_cast<double>(spacing.per_depth) : 0.0;
-  if (angular_)
-    return;
-  const Box box = boundsOf(points, frame_);
+  if (!angular_)
+    centre();
+  updateSigmas(threads);
+}
+
+void
+ViewChart::centre()
+{
+  const Box box = boundsOf(points_, frame_);
   if (!(box.most - box.least).allFinite())
     return; // without points there is nothing to centre
   origin_ = 0.5 * (box.least + box.most);
@@ -89,12 +95,24 @@ ViewChart::measureDirections(const GridGraph& graph, int threads)
   };
   const DirectionNoise granted{share(measured.along_rows),
                                share(measured.along_columns)};
-  if (std::max(granted.along_rows, granted.along_columns) > kLeastDirectionNoise)
-    direction_noise_ = depthNoiseOfDirections(points_, graph, granted, threads);
+  if (std::max(granted.along_rows, granted.along_columns) <= kLeastDirectionNoise)
+    return;
+  direction_noise_ = depthNoiseOfDirections(points_, graph, granted, threads);
+  updateSigmas(threads);
+}
+
+void
+ViewChart::updateSigmas(int threads)
+{
+  sigmas_.resize(points_.size());
+#pragma omp parallel for num_threads(threads)
+  for (std::size_t cell = 0; cell < sigmas_.size(); ++cell)
+    sigmas_[cell] =
+        points_.valid(cell) ? static_cast<float>(unscaledSigma(cell)) : 0.0F;
 }
 
 double
-ViewChart::sigma(std::size_t cell) const
+ViewChart::unscaledSigma(std::size_t cell) const
 {
   const double depth = points_.depth[cell];
   const double sensor = noise_.sigma(depth);
@@ -102,7 +120,7 @@ ViewChart::sigma(std::size_t cell) const
   const double shape = kSpacingShare * (spacing_ + spacing_per_depth_ * depth) +
                        kDepthShare * (angular_ ? depth : scale_);
   const double all =
-      noise_scale_ * std::sqrt(sensor * sensor + direction * direction + shape * shape);
+      std::sqrt(sensor * sensor + direction * direction + shape * shape);
   return angular_ ? all / (depth * depth) : all;
 }
 
@@ -112,6 +130,12 @@ ViewChart::direction(std::size_t cell) const
   const Eigen::Vector3d local = frame_ * points_.point(cell).cast<double>();
   if (angular_)
     return local / static_cast<double>(points_.depth[cell]);
+  return inPlane(local);
+}
+
+Eigen::Vector3d
+ViewChart::inPlane(const Eigen::Vector3d& local) const
+{
   Eigen::Vector3d e = (local - origin_) / scale_;
   e.z() = 1.0;
   return e;
@@ -132,12 +156,11 @@ ViewSample
 ViewChart::sample(std::size_t cell) const
 {
   const double depth = points_.depth[cell];
-  const Eigen::Vector3d e = direction(cell);
+  const Eigen::Vector3d local = frame_ * points_.point(cell).cast<double>();
+  const double value = angular_ ? 1.0 / depth : depth - origin_.z();
+  const Eigen::Vector3d e = angular_ ? Eigen::Vector3d(value * local) : inPlane(local);
   const double deviation = sigma(cell);
-  return {e,
-          basis(e),
-          angular_ ? 1.0 / depth : depth - origin_.z(),
-          1.0 / (deviation * deviation)};
+  return {e, basis(e), value, 1.0 / (deviation * deviation)};
 }
 
 Eigen::Vector3d

@@ -5,10 +5,9 @@
 // segmenters of PCL, and of synthetic clouds from 10^4 to 10^7 points.
 
 #include "chessboard.h"
-#include "test_data.h"
+#include "data_clouds.h"
 
 #include <pcl/features/integral_image_normal.h>
-#include <pcl/io/pcd_io.h>
 #include <pcl/search/organized.h>
 #include <pcl/segmentation/entropy_rate_segmentation.h>
 #include <pcl/segmentation/grid_layout.h>
@@ -29,18 +28,6 @@ using Cloud = PointCloud<PointXYZ>;
 using Normals = PointCloud<Normal>;
 
 constexpr float kMinWeight = 1e-4F;
-
-/** The Kinect cloud; none, and an error of the benchmark, when it is not there. */
-Cloud::ConstPtr
-office(State& state)
-{
-  const auto file = test::dataRoot() / "pcl_organized" / "office1.pcd";
-  auto cloud = pcl::make_shared<Cloud>();
-  if (std::filesystem::exists(file) && io::loadPCDFile(file.string(), *cloud) == 0)
-    return cloud;
-  state.SkipWithError("data set pcl_organized is not there");
-  return nullptr;
-}
 
 GridPoints
 gridOf(const Cloud& cloud)
@@ -72,7 +59,7 @@ segmentGrid(const GridPoints& points,
 void
 officeSuperpixels(State& state, int connectivity)
 {
-  const Cloud::ConstPtr cloud = office(state);
+  const Cloud::ConstPtr cloud = bench::office(state);
   if (!cloud)
     return;
   const GridPoints points = gridOf(*cloud);
@@ -87,7 +74,7 @@ officeSuperpixels(State& state, int connectivity)
 void
 officeSegment(State& state, int connectivity)
 {
-  const Cloud::ConstPtr cloud = office(state);
+  const Cloud::ConstPtr cloud = bench::office(state);
   if (!cloud)
     return;
   EntropyRateSegmentation<PointXYZ> segmentation;
@@ -135,7 +122,7 @@ integralNormals(const Cloud::ConstPtr& cloud)
 void
 pclNormals(State& state)
 {
-  const Cloud::ConstPtr cloud = office(state);
+  const Cloud::ConstPtr cloud = bench::office(state);
   if (!cloud)
     return;
   for (auto _ : state)
@@ -145,7 +132,7 @@ pclNormals(State& state)
 void
 pclPlanes(State& state)
 {
-  const Cloud::ConstPtr cloud = office(state);
+  const Cloud::ConstPtr cloud = bench::office(state);
   if (!cloud)
     return;
   OrganizedMultiPlaneSegmentation<PointXYZ, Normal, Label> segmentation;
@@ -162,7 +149,7 @@ pclPlanes(State& state)
 void
 pclRegionGrowing(State& state)
 {
-  const Cloud::ConstPtr cloud = office(state);
+  const Cloud::ConstPtr cloud = bench::office(state);
   if (!cloud)
     return;
   auto indices = pcl::make_shared<Indices>();
@@ -186,7 +173,7 @@ pclRegionGrowing(State& state)
 void
 pclSupervoxels(State& state)
 {
-  const Cloud::ConstPtr cloud = office(state);
+  const Cloud::ConstPtr cloud = bench::office(state);
   if (!cloud)
     return;
   PointCloud<PointXYZRGBA>::Ptr colored(new PointCloud<PointXYZRGBA>);

@@ -4,7 +4,7 @@
 """False loops: pose_graph_optimize --robust beside GTSAM's GNC, as a table in Markdown.
 
   compare_false_loops.py --tool pose_graph_optimize real FOLDER
-  compare_false_loops.py --tool pose_graph_optimize added GRAPH.g2o [--truth TRUTH.g2o]
+  compare_false_loops.py --tool pose_graph_optimize added GRAPH.g2o [--truth TRUTH]
 
 real: FOLDER has S_alpha_A.g2o.gz, S_alpha_A_GT_LC.txt (true pairs) and S_GT.g2o.gz.
 added: false loops are added to the graph: random, local (at most 60 poses apart), and both
@@ -199,7 +199,7 @@ def main():
     parser.add_argument("study", choices=("real", "added"))
     parser.add_argument("source")
     parser.add_argument("--tool", required=True, help="path of pose_graph_optimize")
-    parser.add_argument("--truth", help="g2o file whose odometry edges are exact")
+    parser.add_argument("--truth", help="g2o or TORO file whose odometry edges are exact")
     parser.add_argument("--methods", nargs="*", default=["consensus", "gnc", "switchable",
                                                          "pcm", "gtsam"])
     parser.add_argument("--kinds", nargs="*", default=["random", "local", "random grouped",

@@ -19,24 +19,19 @@ from odometry_sequences import PreparedScans, write_kitti_poses
 REFERENCE_TIME = {"kiss_icp": 1.0, "genz_icp": 0.5, "small_gicp": 0.5}
 
 
-def kiss_icp(kind, threads):
-    from kiss_icp.config import KISSConfig
-    from kiss_icp.kiss_icp import KissICP
-
-    config = KISSConfig()
+def pipeline(config, make, kind, threads):
+    """KISS-ICP's interface, which GenZ-ICP has, too."""
     config.registration.max_num_threads = threads
-    config.mapping.voxel_size = 1.0  # what its pipeline chooses: max_range / 100
     if kind == "rgbd":
         config.data.max_range = 10.0
-        config.mapping.voxel_size = 0.1
         config.adaptive_threshold.initial_threshold = 0.2
         config.adaptive_threshold.min_motion_th = 0.01
-    odometries = {}
+    odometries = []
 
     def step(points, times):
         if not odometries:
             config.data.deskew = times is not None
-            odometries[0] = KissICP(config)
+            odometries.append(make(config))
         odometries[0].register_frame(
             points, times if times is not None else np.zeros(len(points)))
         return odometries[0].last_pose
@@ -44,29 +39,26 @@ def kiss_icp(kind, threads):
     return step
 
 
+def kiss_icp(kind, threads):
+    from kiss_icp.config import KISSConfig
+    from kiss_icp.kiss_icp import KissICP
+
+    config = KISSConfig()
+    # What its pipeline chooses: max_range / 100.
+    config.mapping.voxel_size = 0.1 if kind == "rgbd" else 1.0
+    return pipeline(config, KissICP, kind, threads)
+
+
 def genz_icp(kind, threads):
     from genz_icp.config import GenZConfig
     from genz_icp.genz_icp import GenZICP
 
     config = GenZConfig()
-    config.registration.max_num_threads = threads
     if kind == "rgbd":
-        config.data.max_range = 10.0
         config.data.min_range = 0.1
         config.mapping.voxel_size = 0.05
         config.mapping.map_cleanup_radius = 10.0
-        config.adaptive_threshold.initial_threshold = 0.2
-        config.adaptive_threshold.min_motion_th = 0.01
-    odometries = {}
-
-    def step(points, times):
-        if not odometries:
-            config.data.deskew = times is not None
-            odometries[0] = GenZICP(config)
-        odometries[0].register_frame(points, times)
-        return odometries[0].last_pose
-
-    return step
+    return pipeline(config, GenZICP, kind, threads)
 
 
 def small_gicp(kind, threads):

@@ -54,6 +54,9 @@ def read_g2o(path):
             elif words[0] == "EDGE_SE3:QUAT":
                 graph.edges.append((int(words[1]), int(words[2]), _pose3(numbers[2:9]),
                                     _information(numbers[9:], 6)))
+            elif words[0] == "EDGE3":  # of TORO: roll, pitch, yaw; exact, so no information
+                pose = gtsam.Pose3(gtsam.Rot3.RzRyRx(*numbers[5:8]), np.array(numbers[2:5]))
+                graph.edges.append((int(words[1]), int(words[2]), pose, np.eye(6)))
     return graph
 
 

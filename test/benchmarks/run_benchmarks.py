@@ -49,6 +49,13 @@ ROWS = {
     "segment_normals": ("Normals of the same cloud", None),
     "segment_planes": ("Planes of the same cloud, normals given", None),
     "segment_regions": ("Smooth regions of the same cloud, normals given", None),
+    **{f"{row}/{n}/real_time": (f"{title}, {n} thread{'s' if n > 1 else ''}", target if n == 2 else None)
+       for row, title, target in (
+           ("surfaces_vga", "Surfaces of the same cloud, with raster, noise and graph", "100 ms"),
+           ("patches_vga", "The same with NURBS fits and trims", "200 ms"),
+           ("surfaces_laser", "Surfaces of a laser's image, 64 rows", "40 ms"),
+           ("organize_laser", "The laser's image from its points", None))
+       for n in (1, 2)},
     **{f"superpixels_scaling_{k}/{n}": (f"Graph and superpixels of {n} points, {k} neighbours", None)
        for k in (8, 4) for n in (10000, 100000, 1000000, 10000000)},
 }

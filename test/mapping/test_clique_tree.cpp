@@ -3,7 +3,7 @@
 //
 // The tree against dense algebra: factor, solution, changes, inverse.
 
-#include "clique_tree.h"
+#include "clique_inverse.h"
 #include "elimination_order.h"
 #include "panel_cholesky.h"
 
@@ -149,6 +149,22 @@ public:
     }
   }
 
+  /** Of some variables, against the dense inverse. */
+  void
+  expectInverse(const Eigen::MatrixXd& part,
+                const std::vector<int>& some,
+                const char* how) const
+  {
+    const Eigen::MatrixXd dense = matrix().inverse();
+    std::vector<int> rows;
+    for (const int variable : some)
+      for (int k = 0; k < tree.dimension(variable); ++k)
+        rows.push_back(startOf(variable) + k);
+    const Eigen::MatrixXd expected = dense(rows, rows);
+    ASSERT_EQ(part.rows(), expected.rows());
+    EXPECT_LT((part - expected).norm(), 1e-8 * expected.norm()) << how;
+  }
+
   int
   variables() const
   {
@@ -221,25 +237,23 @@ TEST(CliqueTree, SolvesAndInvertsAsDenseAlgebra)
     EXPECT_EQ(problem.tree.solve(-1.0), problem.variables());
     problem.expectSolution("built");
     const Eigen::MatrixXd dense = problem.matrix().inverse();
-    const std::vector<int> some{7, 2, 29};
-    const Eigen::MatrixXd part = problem.tree.inverseOf(some);
-    Eigen::Index row = 0;
-    for (const int a : some) {
-      Eigen::Index column = 0;
-      for (const int b : some) {
-        EXPECT_TRUE(
-            part.block(
-                    row, column, problem.tree.dimension(a), problem.tree.dimension(b))
-                .isApprox(dense.block(problem.startOf(a),
-                                      problem.startOf(b),
-                                      problem.tree.dimension(a),
-                                      problem.tree.dimension(b)),
-                          1e-8));
-        column += problem.tree.dimension(b);
-      }
-      row += problem.tree.dimension(a);
-    }
+    const std::vector<int> some{7, 2, 29, 8, 14};
+    problem.expectInverse(problem.tree.inverseOf(some), some, "path by path");
+    problem.expectInverse(CliqueInverse(problem.tree).of(some), some, "by cliques");
   }
+}
+
+TEST(CliqueInverse, OfPartsThatNothingJoins)
+{
+  RandomProblem problem(9);
+  VariablePairs pairs;
+  fill(problem, 12, 3, pairs);
+  const int alone = problem.variables();
+  problem.addVariable();
+  problem.tree.build(eliminationOrder(problem.variables(), pairs));
+  ASSERT_TRUE(problem.tree.factor(problem.assemble(), 1e-14));
+  const std::vector<int> some{3, alone};
+  problem.expectInverse(CliqueInverse(problem.tree).of(some), some, "parts");
 }
 
 TEST(CliqueTree, UpdatesAreAsGoodAsNew)

@@ -4,44 +4,19 @@
 //
 // Drives through the simulated town against what is true about them.
 
-#include <pcl/mapping/simulator/circuits.h>
-#include <pcl/mapping/simulator/simulated_drive.h>
+#include "town_drives.h"
+
 #include <pcl/surface/nurbs/closest_point.h>
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstring>
 #include <map>
 
 namespace {
 
 using namespace pcl::nurbs;
-
-LaserModel
-coarseLaser(int columns = 200)
-{
-  LaserModel laser = LaserModel::hdl64();
-  laser.columns = columns;
-  return laser;
-}
-
-Trajectory
-shortDrive(std::size_t poses = 60)
-{
-  CircuitOptions options;
-  options.shape = CircuitShape::Eight;
-  options.laps = 0.5;
-  Trajectory drive = makeCircuit(options);
-  drive.resize(std::min(poses, drive.size()));
-  return drive;
-}
-
-SimulatedDrive
-townDrive(const SimulationOptions& options, int columns = 200)
-{
-  return SimulatedDrive(shortDrive(), coarseLaser(columns), options);
-}
+using namespace pcl::nurbs::test;
 
 bool
 sameBytes(const SimulatedScan& one, const SimulatedScan& other)
@@ -130,122 +105,6 @@ TEST(SimulatedDrive, distortionIsUndoneByTheTruePoses)
   }
   EXPECT_LT(largest, 5e-5); // single precision of the cloud
   EXPECT_GT(without, 0.2);  // 8 m/s times half a turn, and the turning
-}
-
-/** Errors of the ranges of each beam: count, mean, standard deviation. */
-std::vector<std::array<double, 3>>
-errorsByBeam(const SimulatedDrive& drive, std::size_t index)
-{
-  const SimulatedScan scan = drive.simulate(index);
-  const Eigen::Vector3d place = drive.sensorPose(scan.scan.stamp).translation();
-  const std::size_t columns = scan.scan.cloud->width;
-  std::vector<std::array<double, 3>> result;
-  for (std::size_t row = 0; row < scan.scan.cloud->height; ++row) {
-    double count = 0.0;
-    double sum = 0.0;
-    double squares = 0.0;
-    for (std::size_t i = row * columns; i < (row + 1) * columns; ++i) {
-      if (scan.surfaces[i] == BeamHit::kNothing)
-        continue;
-      const double error =
-          (*scan.scan.cloud)[i].getVector3fMap().cast<double>().norm() -
-          (scan.true_points[i] - place).norm();
-      ++count;
-      sum += error;
-      squares += error * error;
-    }
-    const double mean = sum / count;
-    result.push_back({count, mean, std::sqrt(squares / count - mean * mean)});
-  }
-  return result;
-}
-
-TEST(SimulatedDrive, noiseHasTheStatisticsOfTheModel)
-{
-  const SimulatedDrive drive = townDrive({}, 600);
-  const LaserModel laser = LaserModel::hdl64();
-  const auto errors = errorsByBeam(drive, 10);
-  const auto later = errorsByBeam(drive, 11);
-  double offsets = 0.0;
-  for (std::size_t row = 0; row < errors.size(); ++row) {
-    const auto [count, mean, deviation] = errors[row];
-    ASSERT_GT(count, 100.0) << row;
-    EXPECT_NEAR(deviation, laser.range_noise, 4.0 * 0.011 / std::sqrt(2.0 * count));
-    const double few = std::min(count, later[row][0]);
-    EXPECT_NEAR(mean, later[row][1], 5.0 * laser.range_noise * std::sqrt(2.0 / few));
-    offsets += mean * mean / static_cast<double>(errors.size());
-  }
-  // 64 offsets tell their deviation to a share of 1 / sqrt(128).
-  EXPECT_NEAR(std::sqrt(offsets), laser.beam_offset, 0.3 * laser.beam_offset);
-}
-
-TEST(SimulatedDrive, theOwnBodyHidesWhatIsBehindIt)
-{
-  SimulationOptions options;
-  options.noise = false;
-  LaserModel laser = coarseLaser(360);
-  laser.own_body.clear();
-  const Scan open = SimulatedDrive(shortDrive(), laser, options).read(3);
-  // A wall behind: from -60 to 60 degrees about it, up to 10 degrees below the horizon.
-  laser.own_body = {{Eigen::Vector3d(-1.1, -std::sqrt(3.0), -2.0),
-                     Eigen::Vector3d(-1.0, std::sqrt(3.0), -std::tan(M_PI / 18.0))}};
-  const Scan hidden = SimulatedDrive(shortDrive(), laser, options).read(3);
-  int gone = 0;
-  for (int row = 0; row < 64; ++row)
-    for (int column = 0; column < 360; ++column) {
-      const bool was = std::isfinite(open.cloud->at(column, row).x);
-      const bool is = std::isfinite(hidden.cloud->at(column, row).x);
-      const bool behind = column < 60 || column >= 300;
-      const double azimuth = (column + 0.5) * M_PI / 180.0;
-      const double wall = std::tan(M_PI / 18.0) * std::cos(azimuth);
-      const double down = std::tan(-laser.elevations[static_cast<std::size_t>(row)]);
-      if (behind && down > wall + 1e-9) { // below the top of the front side
-        EXPECT_FALSE(is) << row << ' ' << column;
-      }
-      else if (!behind || down < wall / 1.1 - 1e-9) { // above the top altogether
-        EXPECT_EQ(is, was) << row << ' ' << column;
-      }
-      gone += was && !is ? 1 : 0;
-    }
-  EXPECT_GT(gone, 1000);
-}
-
-TEST(SimulatedDrive, fewerReturnsFromFarAndFlatThanWithoutNoise)
-{
-  SimulationOptions exact;
-  exact.noise = false;
-  const SimulatedScan all = townDrive(exact).simulate(10);
-  const SimulatedScan seen = townDrive({}).simulate(10);
-  std::array<double, 2> lost{};
-  std::array<double, 2> total{};
-  for (std::size_t i = 0; i < all.surfaces.size(); ++i) {
-    if (all.surfaces[i] == BeamHit::kNothing)
-      continue;
-    const bool far = (*all.scan.cloud)[i].getVector3fMap().norm() > 35.0F;
-    ++total[far ? 1 : 0];
-    lost[far ? 1 : 0] += seen.surfaces[i] == BeamHit::kNothing ? 1.0 : 0.0;
-  }
-  EXPECT_LT(lost[0] / total[0], 0.15);
-  EXPECT_GT(lost[1] / total[1], 2.0 * lost[0] / total[0]);
-}
-
-TEST(SimulatedDrive, rasterIsTheOneItSays)
-{
-  SimulationOptions options;
-  options.noise = false;
-  const Scan scan = townDrive(options).read(3);
-  ASSERT_TRUE(scan.geometry);
-  for (std::uint32_t row = 0; row < scan.cloud->height; row += 7)
-    for (std::uint32_t column = 0; column < scan.cloud->width; column += 3) {
-      const Eigen::Vector3d point =
-          scan.cloud->at(static_cast<int>(column), static_cast<int>(row))
-              .getVector3fMap()
-              .cast<double>();
-      if (!point.allFinite())
-        continue;
-      const Eigen::Vector3d ray = scan.geometry->direction(column, row);
-      ASSERT_LT((point.normalized() - ray).norm(), 1e-6);
-    }
 }
 
 TEST(SimulatedDrive, moversMove)

@@ -6,24 +6,16 @@
 // still.
 
 #include "test_data.h"
+#include "town_drives.h"
 
 #include <pcl/mapping/kitti_calibration.h>
-#include <pcl/mapping/simulator/circuits.h>
-#include <pcl/mapping/simulator/simulated_drive.h>
 
 #include <gtest/gtest.h>
 
 namespace {
 
 using namespace pcl::nurbs;
-
-LaserModel
-coarseLaser(int columns)
-{
-  LaserModel laser = LaserModel::hdl64();
-  laser.columns = columns;
-  return laser;
-}
+using namespace pcl::nurbs::test;
 
 Trajectory
 straightDrive(double length, CircuitShape shape = CircuitShape::Line)

@@ -141,6 +141,37 @@ TEST(SlamPipeline, emptyAndNanScansAreBridgedAndTold)
   EXPECT_LT(absoluteError(source, result.trajectory), 0.1);
 }
 
+TEST(SlamPipeline, predictsByTheTimeBetweenScans)
+{
+  // Scans are left out as on a busy machine, irregularly, by the source or as
+  // unreadable.
+  const Ellipse circle{1.5, 1.5};
+  Trajectory truth = ellipseDrive(40, kStep, circle);
+  for (const std::ptrdiff_t dropped : {30, 27, 26, 22, 19, 17, 12, 11, 9})
+    truth.erase(truth.begin() + dropped);
+  SceneDrive source(room(), truth, 4000);
+  const std::size_t blind = 18; // and so a prediction, one step after three
+  const std::size_t torn = 16;
+  source.setChange([](std::size_t k, Scan& scan) {
+    if (k == torn)
+      throw InputError("a file", "torn");
+    if (k == blind)
+      scan.cloud->clear();
+  });
+  SlamOptions skipping = options();
+  skipping.feed.skip_faults = true;
+  SlamPipeline pipeline(source, skipping);
+  pipeline.run();
+  const SlamResult& result = pipeline.result();
+  ASSERT_EQ(result.odometry.size(), truth.size() - 1);
+  EXPECT_EQ(result.tracked, truth.size() - 3); // the first, the torn and the blind one
+  const Eigen::Isometry3d first = truth[0].T_world_body;
+  const Eigen::Isometry3d& predicted = result.odometry[blind - 1].T_world_body;
+  const Eigen::Isometry3d error =
+      (first.inverse() * truth[blind].T_world_body).inverse() * predicted;
+  EXPECT_LT(error.translation().norm(), 0.03); // a step is 0.09 m
+}
+
 TEST(SlamPipeline, scansSeenTwiceDoNotMove)
 {
   Trajectory truth = ellipseDrive(12, kStep, kWay);

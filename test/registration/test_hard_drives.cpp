@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace {
 
 using namespace pcl::nurbs;
@@ -32,10 +34,11 @@ ScanPoints
 scanFrom(const Scene& scene,
          const Eigen::Isometry3d& pose,
          double range,
-         std::mt19937& random)
+         std::mt19937& random,
+         int samples = 12000)
 {
   ScanPoints points;
-  for (const Eigen::Vector3d& world : sampleScene(scene, 12000, kNoise, random)) {
+  for (const Eigen::Vector3d& world : sampleScene(scene, samples, kNoise, random)) {
     const Eigen::Vector3d seen = pose.inverse() * world;
     if (seen.norm() < range)
       points.emplace_back(seen.cast<float>());
@@ -130,6 +133,40 @@ TEST(HardDrives, FastTurnsAreSearchedFor)
     truth = truth * exponential(turn);
   }
   EXPECT_GT(searched, 4);
+}
+
+TEST(HardDrives, AJumpIsSearchedFor)
+{
+  std::mt19937 random(8);
+  ScanOdometry odometry(nearOptions());
+  for (int i = 0; i < 4; ++i)
+    EXPECT_TRUE(
+        odometry.process(scanFrom(street(), at(kSpeed * i), 30.0, random)).tracked);
+  Tangent jump;
+  jump << 7.0, -1.5, 0.0, 0.05, 0.0, 0.9;
+  const Eigen::Isometry3d truth = at(kSpeed * 3) * exponential(jump);
+  const auto found = odometry.process(scanFrom(street(), truth, 30.0, random));
+  EXPECT_TRUE(found.tracked);
+  EXPECT_TRUE(found.searched);
+  EXPECT_LT((found.pose.translation() - truth.translation()).norm(), 0.05);
+}
+
+TEST(HardDrives, SparseScansOnTheirWayAreNotSearchedFor)
+{
+  std::mt19937 random(7);
+  ScanOdometry odometry(nearOptions());
+  double smallest = 1.0;
+  for (int i = 0; i < 10; ++i) {
+    const auto result =
+        odometry.process(scanFrom(street(), at(kSpeed * i), 30.0, random, 11000));
+    EXPECT_TRUE(result.tracked) << "scan " << i;
+    EXPECT_LT((result.pose.translation() - at(kSpeed * i).translation()).norm(), 0.1);
+    if (i < 2) // before a speed is known it may be
+      continue;
+    EXPECT_FALSE(result.searched) << "scan " << i;
+    smallest = std::min(smallest, result.match.inlier_share);
+  }
+  EXPECT_LT(smallest, 0.7); // the map is too sparse for more
 }
 
 TEST(HardDrives, AScanFromElsewhereIsNotTracked)

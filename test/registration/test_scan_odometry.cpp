@@ -11,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace {
 
@@ -146,6 +148,31 @@ TEST(ScanOdometry, BadScansLeaveItOnItsWay)
   EXPECT_TRUE(back.tracked);
   EXPECT_LT((back.pose.translation() - truePose(6).translation()).norm(), 0.05);
   EXPECT_THROW(odometry.process(ScanPoints(3), {0.0F}), std::invalid_argument);
+}
+
+TEST(ScanOdometry, PredictsByTheTimeBetweenScans)
+{
+  ScanOdometry odometry;
+  std::mt19937 random(7);
+  std::vector<float> times;
+  double last = 0.0;
+  const auto drive = [&](double time) {
+    const double interval = std::exchange(last, time);
+    return odometry.process(
+        scanAt(time, false, false, random, times), {}, time - interval);
+  };
+  for (const double time : {0.0, 1.0, 3.0, 4.0, 6.0, 9.0, 10.0, 12.0}) {
+    const OdometryResult result = drive(time);
+    EXPECT_TRUE(result.tracked);
+    EXPECT_LT((truePose(time).inverse() * result.pose).translation().norm(), 0.1);
+  }
+  // What the prediction is alone is seen where there is nothing to align.
+  const OdometryResult predicted = odometry.process({}, {}, 3.0);
+  EXPECT_LT((truePose(15.0).inverse() * predicted.pose).translation().norm(), 0.2);
+  EXPECT_THROW(odometry.process({}, {}, -1.0), std::invalid_argument);
+  EXPECT_THROW(odometry.process({}, {}, std::nan("")), std::invalid_argument);
+  const OdometryResult same = odometry.process({}, {}, 0.0); // a scan seen twice
+  EXPECT_TRUE(same.pose.isApprox(predicted.pose));
 }
 
 TEST(ScanOdometry, StandsStillAndForgetsWhatIsFar)

@@ -128,17 +128,27 @@ class Outputs(ToolTest):
         self.succeed("in.pcd", "o.obj", "--obj", "rational")
         self.assertIn("cstype rat bspline", (self.folder / "o.obj").read_text())
 
+    def check_picture(self, name, size, what):
+        """A PNG of that size that is not of one colour."""
+        data = (self.folder / name).read_bytes()
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">II", data[16:24]), size)
+        self.assertTrue(data.endswith(b"IEND\xaeB`\x82"))
+        start = data.index(b"IDAT")
+        length, = struct.unpack(">I", data[start - 4:start])
+        pixels = zlib.decompressobj().decompress(data[start + 4:start + 4 + length])
+        self.assertGreater(len(set(pixels)), 8, what)
+
     def test_picture(self):
         for shade in ("patch", "normal", "curvature", "deviation"):
             self.succeed("in.pcd", "o.png", "--size", "200x100", "--shade", shade)
-            data = (self.folder / "o.png").read_bytes()
-            self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
-            self.assertEqual(struct.unpack(">II", data[16:24]), (200, 100))
-            self.assertTrue(data.endswith(b"IEND\xaeB`\x82"))
-            start = data.index(b"IDAT")
-            length, = struct.unpack(">I", data[start - 4:start])
-            pixels = zlib.decompressobj().decompress(data[start + 4:start + 4 + length])
-            self.assertGreater(len(set(pixels)), 8, shade)
+            self.check_picture("o.png", (200, 100), shade)
+
+    def test_picture_of_points_far_from_the_optical_axis(self):
+        points = [(x + 2.0 * z, y + 1.5 * z, z) for x, y, z in wave(noise=0.0)]
+        self.write("side.pcd", pcd(points, width=80))
+        self.succeed("side.pcd", "o.png", "--size", "200x150")
+        self.check_picture("o.png", (200, 150), "beside the axis")
 
     def read_labels(self, name, size):
         data = (self.folder / name).read_bytes()

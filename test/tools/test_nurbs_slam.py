@@ -4,10 +4,11 @@
 """What nurbs_slam promises: data sets, files, report, settings, exit codes."""
 import json
 import struct
+import subprocess
 import unittest
 
 from drives import read_kitti, scan, write_kitti
-from tool import ToolTest, depth_rows, pcd, png
+from tool import TOOLS, ToolTest, depth_rows, pcd, png
 
 FILES = ["pose_graph.g2o", "report.json", "trajectory.png", "trajectory_kitti.txt",
          "trajectory_tum.txt", "truth_kitti.txt", "truth_tum.txt"]
@@ -189,6 +190,24 @@ class DataSets(SlamTest):
         self.assertEqual(self.report()["scans"], 6)
         self.assertLess(self.report()["ate_rmse_m"], 0.2)
         self.assertEqual(self.report()["options"]["sim"]["sensor"], "vlp16")
+
+    def test_simulate_scans_writes_what_the_simulator_gives(self):
+        drive = ("--columns", 150, "--circuit", "eight", "--distortion")
+        written = subprocess.run(
+            [TOOLS / "simulate_scans", "--out", "drive", "--scans", "5", "--quiet",
+             *map(str, drive)], cwd=self.folder, check=False)
+        self.assertEqual(written.returncode, 0)
+        self.succeed("--dataset", "kitti", "--path", "drive", "--out", "read")
+        self.succeed("--dataset", "sim", "--out", "given", "--count", 5,
+                     *(f"--sim.{word[2:]}" if str(word).startswith("--") else word
+                       for word in drive))
+        for name in ("trajectory_kitti.txt", "truth_kitti.txt"):
+            read, given = (read_kitti(self.folder / folder / name)
+                           for folder in ("read", "given"))
+            self.assertEqual(len(read), 5)
+            for place, other in zip(read, given): # the truth goes on
+                for a, b in zip(place, other):
+                    self.assertAlmostEqual(a, b, delta=1e-6)
 
 
 class Settings(SlamTest):

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -62,6 +63,29 @@ labelledPoints(const pcl::nurbs::GridPoints& points,
   return result;
 }
 
+/** The view of a depth image's camera, turned to the middle of the image, which need
+ * not be on the optical axis, and wide enough for its corners. */
+Camera
+imageCamera(const pcl::GridGeometry& grid, double aspect)
+{
+  Camera camera;
+  camera.target = grid.direction(0.5 * (grid.width - 1), 0.5 * (grid.height - 1));
+  camera.up = -grid.frame.row(1).transpose();
+  const Eigen::Vector3d right = camera.target.cross(camera.up).normalized();
+  const Eigen::Vector3d up = right.cross(camera.target);
+  double tangent = 0.0;
+  for (const double column : {-0.5, grid.width - 0.5})
+    for (const double row : {-0.5, grid.height - 0.5}) {
+      const Eigen::Vector3d ray = grid.direction(column, row);
+      const double along = ray.dot(camera.target);
+      tangent = std::max({tangent,
+                          std::abs(ray.dot(up)) / along,
+                          std::abs(ray.dot(right)) / along / aspect});
+    }
+  camera.vertical_fov = 2.0 * std::atan(tangent);
+  return camera;
+}
+
 /** The view of the sensor itself for cameras, else from obliquely above. */
 Camera
 chooseCamera(const pcl::nurbs::GridPoints& points,
@@ -69,6 +93,7 @@ chooseCamera(const pcl::nurbs::GridPoints& points,
              const PictureOptions& options)
 {
   const Eigen::Matrix3d axes = points.geometry.frame; // rows right, down, forward
+  const double aspect = static_cast<double>(options.width) / options.height;
   const std::vector<double> numbers = parseView(options.view);
   if (!numbers.empty()) {
     Camera camera;
@@ -79,12 +104,11 @@ chooseCamera(const pcl::nurbs::GridPoints& points,
   }
   const bool camera_cloud = points.geometry.projection == GridProjection::perspective;
   if (options.view == "sensor" || (options.view == "auto" && camera_cloud)) {
+    if (camera_cloud)
+      return imageCamera(points.geometry, aspect);
     Camera camera;
     camera.target = axes.row(2).transpose();
     camera.up = -axes.row(1).transpose();
-    if (camera_cloud)
-      camera.vertical_fov = 2.0 * std::atan(0.5 * points.geometry.height /
-                                            points.geometry.intrinsics().fy);
     return camera;
   }
   const bool map = points.geometry.projection == GridProjection::plane;
@@ -96,7 +120,7 @@ chooseCamera(const pcl::nurbs::GridPoints& points,
   return Camera::fitted(labelledPoints(points, reconstruction),
                         forward - 0.45 * right - 0.7 * up,
                         up,
-                        static_cast<double>(options.width) / options.height);
+                        aspect);
 }
 
 /** Triangles of one surface with an edge limit, which is raised where the surface

@@ -219,17 +219,17 @@ Eigen::VectorXd
 orthogonalDistances(const NurbsSurface& surface,
                     const Eigen::Matrix3Xd& positions,
                     Eigen::Matrix2Xd& parameters,
-                    int threads)
+                    int threads,
+                    double last_step)
 {
   if (parameters.cols() != positions.cols())
     throw std::invalid_argument("orthogonalDistances: one (u, v) per point is needed");
   constexpr int kSteps = 10;
-  constexpr double kLastStep = 1e-6;
   Eigen::VectorXd result(positions.cols());
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (Eigen::Index k = 0; k < positions.cols(); ++k) {
     const SurfaceJet1 jet = projectFrom(
-        surface, positions.col(k), kSteps, 0.0, kLastStep, parameters.col(k));
+        surface, positions.col(k), kSteps, 0.0, last_step, parameters.col(k));
     const Eigen::Vector3d offset = positions.col(k) - jet.position;
     result(k) = std::copysign(offset.norm(), offset.dot(jet.du.cross(jet.dv)));
   }

@@ -14,13 +14,14 @@ namespace nurbs {
  * Newton matrix, held poses being exact.
  *
  * Perturbations are T <- T * exp(tangent), translation before rotation; planar poses
- * have three rows, x, y and the angle. The matrix is factored once; a query then costs
- * the path from its poses to the root of the elimination tree. Const members may be
+ * have three rows, x, y and the angle. The matrix is factored and inverted within the
+ * cliques of its elimination tree once; poses of one factor then cost a look-up, others
+ * the paths to the first clique that they have in common. Const members may be
  * called from several threads.
  * \ingroup mapping */
 class PCL_NURBS_MAPPING_EXPORT PoseGraphCovariance {
 public:
-  /** \brief Linearise and factor. The poses that optimize() would hold are held.
+  /** \brief Linearise, factor and invert. The poses that optimize() would hold are held.
    * \throws std::invalid_argument if a node with factors has no estimate, or if the
    * factors do not determine all poses */
   explicit PoseGraphCovariance(const PoseGraph& graph,

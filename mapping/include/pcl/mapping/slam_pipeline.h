@@ -11,6 +11,7 @@
 #include <pcl/registration/scan_odometry.h>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace pcl {
@@ -134,9 +135,7 @@ private:
   ScanOdometry odometry_;
   KeyframeGraph graph_;
   Progress progress_;
-  std::size_t processed_ = 0;
-  double last_stamp_ = 0.0;
-  double last_interval_ = 0.0;
+  std::optional<double> last_stamp_;
   std::size_t collected_ = 0;
   std::size_t last_collected_ = 0;
   SlamResult result_;

@@ -53,15 +53,13 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   rgbd();
 };
 
-struct PoseSearchRange;
-
 /** \brief What became of a scan. */
 struct OdometryResult {
   /** From the sensor's frame to that of the first scan. */
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   /** Whether the pose was measured; else it is the prediction. */
   bool tracked = false;
-  /** Whether the prediction did not lead there and the pose was searched for. */
+  /** Whether the prediction led to a doubtful place, so that others were tried. */
   bool searched = false;
   bool keyframe = false;
   /** Largest distance of pairs that was used. */
@@ -104,9 +102,15 @@ public:
    * \param[in] points in the sensor's frame; those that are not finite are dropped
    * \param[in] times of the points within the scan, 0 .. 1; empty when it needs no
    * deskewing
-   * \throws std::invalid_argument when there are times, but not one per point */
+   * \param[in] interval time since the scan before, in the unit of \a times: 1 when
+   * scans follow each other, 2 when one was left out. The sensor is predicted to go on
+   * as fast as before, for ten units at most.
+   * \throws std::invalid_argument when there are times, but not one per point, or for an
+   * interval that is negative or no number */
   OdometryResult
-  process(const ScanPoints& points, const std::vector<float>& times = {});
+  process(const ScanPoints& points,
+          const std::vector<float>& times = {},
+          double interval = 1.0);
 
   /** \brief Points of the local map, in the frame of the first scan. */
   std::vector<Eigen::Vector3d>
@@ -117,23 +121,7 @@ private:
   prepare(const ScanPoints& points, const std::vector<float>& times) const;
 
   void
-  track(OdometryResult& result);
-
-  /** Align from a start; keep the result when more of the scan fits than before. */
-  void
-  tryStart(const ScanPoints& scan,
-           const Eigen::Isometry3d& start,
-           int max_iterations,
-           OdometryResult& result) const;
-
-  /** Look for other starts and try them. */
-  void
-  searchStarts(const ScanPoints& scan,
-               const PoseSearchRange& range,
-               OdometryResult& result) const;
-
-  void
-  alignScan(const ScanPoints& scan, OdometryResult& result) const;
+  track(double interval, OdometryResult& result);
 
   void
   insert(const OdometryResult& result);
@@ -149,7 +137,7 @@ private:
   VoxelMap map_;
   MotionThreshold threshold_;
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d velocity_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d velocity_ = Eigen::Isometry3d::Identity(); // per unit of time
   Eigen::Isometry3d keyframe_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d pruned_at_ = Eigen::Vector3d::Zero();
   bool any_keyframe_ = false;

@@ -42,9 +42,12 @@ struct PCL_NURBS_SEGMENTATION_EXPORT SensorNoise {
    * correlation hide the noise between next neighbours.
    *
    * O(n). Without enough samples the result is 0.1 % of the median depth.
+   * \param[in] points cloud
+   * \param[in] threads number of threads; the result does not depend on it
+   * \throws std::invalid_argument when there is no thread
    */
   static SensorNoise
-  estimate(const nurbs::GridPoints& points);
+  estimate(const nurbs::GridPoints& points, int threads = 1);
 };
 
 } // namespace pcl

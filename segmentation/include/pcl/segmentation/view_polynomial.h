@@ -96,7 +96,10 @@ public:
 
   /** \brief Standard deviation of a valid cell's value. */
   double
-  sigma(std::size_t cell) const;
+  sigma(std::size_t cell) const
+  {
+    return noise_scale_ * static_cast<double>(sigmas_[cell]);
+  }
 
   /** \brief Deviation of each cell's depth that errors of its direction cause. */
   const std::vector<float>&
@@ -122,6 +125,21 @@ public:
   }
 
 private:
+  /** Place a height field's domain over its points. */
+  void
+  centre();
+
+  /** Direction of a point of a height field. */
+  Eigen::Vector3d
+  inPlane(const Eigen::Vector3d& local) const;
+
+  /** Find the deviations again. */
+  void
+  updateSigmas(int threads);
+
+  double
+  unscaledSigma(std::size_t cell) const;
+
   const GridPoints& points_;
   SensorNoise noise_;
   double noise_scale_ = 1.0;
@@ -134,6 +152,7 @@ private:
   double scale_ = 1.0;
   std::vector<int> choices_;
   std::vector<float> direction_noise_; // of the depth, per cell
+  std::vector<float> sigmas_;          // of the value, per cell, without noise_scale_
 };
 
 /** \brief Sums over points from which the best polynomials follow: normal equations.

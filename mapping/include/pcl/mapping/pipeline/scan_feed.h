@@ -59,6 +59,13 @@ public:
   std::size_t
   size() const;
 
+  /** \brief Median time between the source's scans, seconds; 0 for a single scan. */
+  double
+  period() const
+  {
+    return period_;
+  }
+
   /** \brief Wait until the next scan is there. \return false when none is left, or \a
    * wait was cut short */
   bool
@@ -87,7 +94,7 @@ private:
 
   const ScanSource& source_;
   ScanFeedOptions options_;
-  double period_ = 0.1; // between scans, median
+  double period_ = 0.0;
   std::size_t next_;
   std::size_t end_;
   Clock::time_point start_;

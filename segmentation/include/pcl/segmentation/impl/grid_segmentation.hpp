@@ -25,7 +25,8 @@ GridSegmentation<PointT>::segment(std::vector<PointIndices>& segments)
   }
   try {
     const nurbs::GridPoints points = gatherPoints();
-    used_noise_ = noise_ ? *noise_ : SensorNoise::estimate(points);
+    used_noise_ =
+        noise_ ? *noise_ : SensorNoise::estimate(points, graph_options_.threads);
     graph_.build(points, used_noise_, graph_options_);
     graph_.setWeights();
     count_ = performSegmentation(points, graph_, used_noise_, labels_);

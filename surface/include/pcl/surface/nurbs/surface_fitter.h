@@ -136,12 +136,16 @@ fitRational(const NurbsSurface& start,
  * \param[in] positions points, metres
  * \param[in,out] parameters starts, then foot points
  * \param[in] threads number of threads
+ * \param[in] last_step share of the domain; a step of Gauss and Newton shorter than it
+ *            is the last one: the distance is off by the square of its length times the
+ *            curvature
  * \return distance of each, positive on the side of the normal S_u x S_v, metres */
 PCL_NURBS_SURFACE_EXPORT Eigen::VectorXd
 orthogonalDistances(const NurbsSurface& surface,
                     const Eigen::Matrix3Xd& positions,
                     Eigen::Matrix2Xd& parameters,
-                    int threads = 1);
+                    int threads = 1,
+                    double last_step = 1e-6);
 
 } // namespace nurbs
 } // namespace pcl
