@@ -68,8 +68,7 @@ CliqueInverse::invert(Part& part) const
   auto cross = part.inverse.topRightCorner(own, separator);
   part.inverse.bottomRightCorner(separator, separator) =
       at(part.clique->parent).inverse(part.in_parent, part.in_parent);
-  cross.noalias() =
-      -part.given * part.inverse.bottomRightCorner(separator, separator);
+  cross.noalias() = -part.given * part.inverse.bottomRightCorner(separator, separator);
   corner.noalias() -= cross * part.given.transpose();
   part.inverse.bottomLeftCorner(separator, own) = cross.transpose();
 }
@@ -129,8 +128,7 @@ CliqueInverse::between(int a, int b) const
   Combination first = combinationFor(a);
   Combination second = combinationFor(b);
   while (first.part != second.part) {
-    Combination& lower =
-        first.part->depth >= second.part->depth ? first : second;
+    Combination& lower = first.part->depth >= second.part->depth ? first : second;
     if (lower.part->depth == 0)
       return Eigen::MatrixXd::Zero(first.rows.cols(), second.rows.cols());
     climb(lower);

@@ -8,10 +8,10 @@
 namespace pcl {
 namespace nurbs {
 
-/** Blocks of the inverse of a factored matrix, for many queries: the inverse is computed
- * within each clique once, from the root down; that of a pair of variables then costs
- * the paths to the first clique that they have in common, and nothing within one
- * clique. For few queries CliqueTree::inverseOf() is cheaper. */
+/** Blocks of the inverse of a factored matrix, for many queries: the inverse is
+ * computed within each clique once, from the root down; that of a pair of variables
+ * then costs the paths to the first clique that they have in common, and nothing within
+ * one clique. For few queries CliqueTree::inverseOf() is cheaper. */
 class CliqueInverse {
 public:
   /** O(the factorisation).
@@ -29,7 +29,7 @@ private:
     int depth = 0;
     std::vector<int> starts;    /**< of each of its variables */
     std::vector<int> in_parent; /**< rows of the separator there */
-    Eigen::MatrixXd given;      /**< own variables = -given * separator + something new */
+    Eigen::MatrixXd given; /**< own variables = -given * separator + something new */
     Eigen::MatrixXd inverse;
   };
 

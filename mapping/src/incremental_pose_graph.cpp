@@ -94,6 +94,11 @@ IncrementalPoseGraph::IncrementalPoseGraph(PoseGraph graph,
   implementation_->rebuild_is_due = true;
 }
 
+IncrementalPoseGraph::IncrementalPoseGraph(IncrementalPoseGraph&&) noexcept = default;
+
+IncrementalPoseGraph&
+IncrementalPoseGraph::operator=(IncrementalPoseGraph&&) noexcept = default;
+
 IncrementalPoseGraph::~IncrementalPoseGraph() = default;
 
 void

@@ -38,9 +38,8 @@ jacobianOf(const PoseGraph& graph, const JudgedLoop& loop, const ErrorValues& va
 
 double
 jointDistance(const PoseGraph& graph,
-              const PoseGraphCovariance& poses,
               const JudgedLoop& loop,
-              bool in_graph)
+              const JointCovariance& covariance)
 {
   ErrorValues values;
   linearizeError(loop.factor.model,
@@ -48,9 +47,7 @@ jointDistance(const PoseGraph& graph,
                  toSolverPose(graph.node(loop.measured.to).T_world_node),
                  values);
   const Eigen::MatrixXd jacobian = jacobianOf(graph, loop, values);
-  const Eigen::MatrixXd spread = jacobian *
-                                 poses.of({loop.measured.from, loop.measured.to}) *
-                                 jacobian.transpose();
+  const Eigen::MatrixXd spread = jacobian * covariance.ends * jacobian.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(spread);
   const Eigen::VectorXd components =
       parts.eigenvectors().transpose() *
@@ -58,10 +55,11 @@ jointDistance(const PoseGraph& graph,
   constexpr double kDetermined = 1e-9; // share of the error that others see
   double sum = 0.0;
   for (Eigen::Index k = 0; k < components.size(); ++k) {
-    const double share =
-        in_graph ? 1.0 - parts.eigenvalues()(k) : 1.0 + parts.eigenvalues()(k);
-    if (share > kDetermined)
-      sum += components(k) * components(k) / share;
+    // Without the loop the error is 1 / kept times as large, the variance value / kept.
+    const double value = parts.eigenvalues()(k);
+    const double kept = covariance.with_loop ? 1.0 - value : 1.0;
+    if (kept > kDetermined)
+      sum += components(k) * components(k) / (kept * (kept + loop.growth * value));
   }
   return sum;
 }

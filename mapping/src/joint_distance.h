@@ -5,23 +5,26 @@
 
 #include "judged_loop.h"
 
-#include <pcl/mapping/pose_graph_covariance.h>
+#include <Eigen/Core>
 
 namespace pcl {
 namespace nurbs {
 
+/** How the covariance of a graph's poses enters the judgement of a loop. */
+struct JointCovariance {
+  Eigen::MatrixXd ends;   /**< of both ends of the loop together, in blocks */
+  bool with_loop = false; /**< the loop is in the graph with weight 1, not 0 */
+};
+
 /** d^2 of a loop from what all other factors of a graph say together, at its estimates:
- * r^T (C + J P J^T)^-1 r for a loop that is not in the graph, C its own covariance and
- * P that of the poses. For one that is in the graph, C - J P J^T: the distance it would
- * have if the graph were solved without it, to first order. Directions in which the
- * loop alone determines the poses do not count.
- * \param[in] poses covariance of the graph's poses \param[in] in_graph with weight 1, or
- * weight 0 */
+ * r^T (C + g J P J^T)^-1 r, C its own covariance, P that of the poses without it, and g
+ * the loop's growth. If the loop is in the graph, r and P are those that there would be
+ * without it, to first order. Directions in which the loop alone determines the poses
+ * do not count. */
 double
 jointDistance(const PoseGraph& graph,
-              const PoseGraphCovariance& poses,
               const JudgedLoop& loop,
-              bool in_graph);
+              const JointCovariance& covariance);
 
 } // namespace nurbs
 } // namespace pcl

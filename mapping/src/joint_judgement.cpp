@@ -6,6 +6,8 @@
 #include "joint_distance.h"
 #include "loop_clusters.h"
 
+#include <pcl/mapping/pose_graph_covariance.h>
+
 #include <algorithm>
 
 namespace pcl {
@@ -24,7 +26,10 @@ jointDistances(const JudgedGraph& judged, const Judged& loops, int threads)
   for (std::ptrdiff_t k = 0; k < count; ++k) {
     const auto place = static_cast<std::size_t>(k);
     const JudgedLoop& loop = *loops[place];
-    distances[place] = jointDistance(judged.graph, poses, loop, loop.verdict.accepted);
+    distances[place] = jointDistance(
+        judged.graph,
+        loop,
+        {poses.of({loop.measured.from, loop.measured.to}), loop.verdict.accepted});
   }
   return distances;
 }
@@ -39,7 +44,9 @@ struct Candidates {
 /** Members are accepted within the limit, if at least half of them agree.
  * \return whether a verdict changed */
 bool
-judgeTogether(JudgedGraph& judged, const Candidates& candidates, const double* distances)
+judgeTogether(JudgedGraph& judged,
+              const Candidates& candidates,
+              const double* distances)
 {
   const auto agrees = [&](std::size_t k) {
     return distances[k] <= candidates.share * candidates.loops[k]->limit;
@@ -85,9 +92,7 @@ constexpr double kAgreesWell = 0.3;
 /** Accepted loops in clusters, the surest first, and their weights set to zero; those
  * that odometry cannot check keep theirs. */
 std::vector<Candidates>
-queueOf(JudgedGraph& judged,
-        const OdometryUncertainty& odometry,
-        double probability)
+queueOf(JudgedGraph& judged, const OdometryUncertainty& odometry, double probability)
 {
   Judged loops;
   std::vector<MeasuredLoop> measured;
@@ -113,8 +118,7 @@ growByEvidence(JudgedGraph& judged,
                const OdometryUncertainty& odometry,
                const RobustOptions& options)
 {
-  const std::vector<Candidates> queue =
-      queueOf(judged, odometry, options.probability);
+  const std::vector<Candidates> queue = queueOf(judged, odometry, options.probability);
   judged.solve();
   std::size_t batch = 1;
   std::size_t recent = 0; // the last batch is judged again beside the next one

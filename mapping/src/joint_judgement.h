@@ -12,8 +12,8 @@ namespace nurbs {
  * each time, by their distances from what odometry and accepted loops say together. */
 void
 growByEvidence(JudgedGraph& judged,
-                const OdometryUncertainty& odometry,
-                const RobustOptions& options);
+               const OdometryUncertainty& odometry,
+               const RobustOptions& options);
 
 /** Reject accepted loops that are too far from what all others say together, and accept
  * rejected ones that are not, until nothing changes. */

@@ -19,18 +19,20 @@ withNoiseScaled(const Measurement& measurement, const NoiseScale& scale)
   return result;
 }
 
+} // namespace
+
 JudgedLoop
-judgedLoop(const PoseGraph& graph, FactorId id, double probability)
+judgedLoop(const PoseGraph& graph,
+           FactorId id,
+           const BetweenFactor& between,
+           double probability)
 {
   JudgedLoop loop;
-  loop.measured = measuredLoop(graph, id);
-  loop.factor = problemFactorOf(
-      id, {graph.factor(id).measurement, 1.0}, graph, PoseGraphCost::Information);
+  loop.measured = measuredLoop(graph, id, between);
+  loop.factor = problemFactorOf(id, {between, 1.0}, graph, PoseGraphCost::Information);
   loop.limit = chiSquareQuantile(loop.measured.planar ? 3 : 6, probability);
   return loop;
 }
-
-} // namespace
 
 void
 JudgedGraph::judge(
@@ -65,7 +67,11 @@ judgedGraph(const PoseGraph& graph,
       result.graph.setWeight(name, factor.weight);
       continue;
     }
-    result.loops.push_back(judgedLoop(result.graph, name, probability));
+    result.loops.push_back(
+        judgedLoop(result.graph,
+                   name,
+                   std::get<BetweenFactor>(result.graph.factor(name).measurement),
+                   probability));
     result.loops.back().verdict.factor = id;
   }
   return result;

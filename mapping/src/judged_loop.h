@@ -18,6 +18,8 @@ struct JudgedLoop {
   MeasuredLoop measured;
   ProblemFactor factor; /**< of weight 1 */
   double limit = 0.0;   /**< of squared distances */
+  /** What the covariance of the rest of the graph is multiplied by. */
+  double growth = 1.0;
   LoopVerdict verdict;
 };
 
@@ -38,6 +40,13 @@ struct JudgedGraph {
   double
   residualOf(const JudgedLoop& loop) const;
 };
+
+/** A loop between nodes of a graph, of which it may be a factor or not. */
+JudgedLoop
+judgedLoop(const PoseGraph& graph,
+           FactorId id,
+           const BetweenFactor& between,
+           double probability);
 
 /** The graph with the information of between factors for errors scaled so, its loops
  * accepted.

@@ -33,7 +33,10 @@ square(double x)
 
 KeyframeGraph::KeyframeGraph(const KeyframeGraphOptions& options,
                              std::unique_ptr<LoopDetector> detector)
-    : options_(options), detector_(std::move(detector))
+    : options_(options),
+      detector_(std::move(detector)),
+      graph_(options.incremental),
+      gate_(options.loop_probability)
 {
   if (!(options.point_spacing > 0.0) || !(options.drift_translation > 0.0) ||
       !(options.drift_rotation > 0.0) || !(options.lost_translation > 0.0) ||
@@ -86,10 +89,11 @@ KeyframeGraph::beginKeyframe(std::size_t scan, const OdometryResult& odometry)
     const double least = options_.point_spacing; // a turn on the spot drifts too
     covariance_ += isotropic(square(options_.drift_translation * (length + least)),
                              square(options_.drift_rotation * (length + least)));
-    graph_.addNode(node, orthonormal(graph_.node(last.node).T_world_node * T_last_new));
+    graph_.addNode(node);
     const TangentMatrix information = covariance_.inverse();
     graph_.addFactor(BetweenFactor{
         last.node, node, T_last_new, 0.5 * (information + information.transpose())});
+    graph_.update();
   }
   covariance_.setZero();
   keyframes_.push_back({node, scan, way_, odometry.pose, {}});
@@ -117,14 +121,8 @@ KeyframeGraph::completeKeyframe()
   keyframe.points.shrink_to_fit();
   if (!detector_)
     return;
-  const std::vector<BetweenFactor> found = detector_->detect(keyframes_, graph_);
-  if (found.empty())
-    return;
-  for (const BetweenFactor& loop : found) {
-    graph_.addFactor(loop);
-    loops_.push_back(loop);
-  }
-  optimize(graph_, options_.solver);
+  for (const BetweenFactor& loop : detector_->detect(keyframes_, graph_.graph()))
+    gate_.offer(graph_, loop);
 }
 
 void
@@ -132,6 +130,17 @@ KeyframeGraph::finish()
 {
   if (!keyframes_.empty())
     completeKeyframe();
+  if (!gate_.accepted().empty())
+    graph_.optimizeAll(options_.solver);
+}
+
+std::vector<BetweenFactor>
+KeyframeGraph::loops() const
+{
+  std::vector<BetweenFactor> result;
+  for (const FactorId id : gate_.accepted())
+    result.push_back(std::get<BetweenFactor>(graph().factor(id).measurement));
+  return result;
 }
 
 Trajectory
@@ -140,9 +149,9 @@ KeyframeGraph::trajectory() const
   Trajectory result;
   result.reserve(scans_.size());
   for (const AttachedScan& scan : scans_)
-    result.push_back({scan.stamp,
-                      graph_.node(keyframes_[scan.keyframe].node).T_world_node *
-                          scan.T_keyframe_scan});
+    result.push_back(
+        {scan.stamp,
+         graph_.pose(keyframes_[scan.keyframe].node) * scan.T_keyframe_scan});
   return result;
 }
 

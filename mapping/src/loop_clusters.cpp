@@ -126,8 +126,7 @@ bestEvidence(const LoopCluster& cluster,
 {
   double best = -std::numeric_limits<double>::infinity();
   for (const std::size_t k : cluster.members)
-    best =
-        std::max(best, -0.5 * vagueness(loops[k], *cycleError(loops[k], odometry)));
+    best = std::max(best, -0.5 * vagueness(loops[k], *cycleError(loops[k], odometry)));
   return best;
 }
 
@@ -162,7 +161,8 @@ clusterLoops(const std::vector<MeasuredLoop>& loops,
     clusters[sets.find_set(k)].members.push_back(k);
   std::vector<LoopCluster> result;
   for (auto& [representative, cluster] : clusters) {
-    cluster.evidence = tree[representative] + bestEvidence(cluster, loops, odometry);
+    cluster.confirmation = tree[representative];
+    cluster.evidence = cluster.confirmation + bestEvidence(cluster, loops, odometry);
     result.push_back(std::move(cluster));
   }
   std::stable_sort(

@@ -11,8 +11,10 @@ namespace nurbs {
 /** Loops that confirm each other, directly or by others in between. */
 struct LoopCluster {
   std::vector<std::size_t> members; /**< places in the list of loops */
-  /** Logarithm of how unlikely it is that unrelated loops agree like that, with each
-   * other and with the odometry; but for a constant. */
+  /** Logarithm of how unlikely it is that unrelated loops agree like that with each
+   * other. */
+  double confirmation = 0.0;
+  /** The same with the odometry, too, but for a constant. */
   double evidence = 0.0;
 };
 

@@ -42,9 +42,11 @@ operator*(const UncertainMotion& first, const UncertainMotion& second)
 } // namespace
 
 MeasuredLoop
-measuredLoop(const PoseGraph& graph, FactorId id, const NoiseScale& scale)
+measuredLoop(const PoseGraph& graph,
+             FactorId id,
+             const BetweenFactor& between,
+             const NoiseScale& scale)
 {
-  const auto& between = std::get<BetweenFactor>(graph.factor(id).measurement);
   const bool planar = graph.node(between.from).planar && graph.node(between.to).planar;
   return {id,
           between.from,

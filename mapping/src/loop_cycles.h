@@ -20,7 +20,10 @@ struct MeasuredLoop {
 };
 
 MeasuredLoop
-measuredLoop(const PoseGraph& graph, FactorId id, const NoiseScale& scale = {});
+measuredLoop(const PoseGraph& graph,
+             FactorId id,
+             const BetweenFactor& between,
+             const NoiseScale& scale = {});
 
 /** How far a loop is from the odometry between its ends, and the covariance of that. */
 struct CycleError {
@@ -37,10 +40,10 @@ cycleError(const MeasuredLoop& loop, const OdometryUncertainty& odometry);
 std::optional<double>
 cycleDistance(const MeasuredLoop& loop, const OdometryUncertainty& odometry);
 
-/** Error of the cycle of two loops and the odometry between their ends, at the end of the
- * first, the covariances taken as independent (Mangelson, Dominic, Eustice, Vasudevan, Pairwise consistent
- * measurement set maximization for robust multi-robot map merging, ICRA 2018); nothing
- * if odometry does not join the ends. O(1). */
+/** Error of the cycle of two loops and the odometry between their ends, at the end of
+ * the first, the covariances taken as independent (Mangelson, Dominic, Eustice,
+ * Vasudevan, Pairwise consistent measurement set maximization for robust multi-robot
+ * map merging, ICRA 2018); nothing if odometry does not join the ends. O(1). */
 std::optional<CycleError>
 pairError(const MeasuredLoop& a,
           const MeasuredLoop& b,

@@ -22,9 +22,13 @@ std::vector<MeasuredLoop>
 loopsByLength(const PoseGraph& graph, const std::set<FactorId>& names)
 {
   const OdometryUncertainty odometry(graph, names);
+  const auto measured = [&](FactorId id) {
+    return measuredLoop(
+        graph, id, std::get<BetweenFactor>(graph.factor(id).measurement));
+  };
   std::vector<std::pair<std::size_t, FactorId>> lengths;
   for (const FactorId id : names) {
-    const MeasuredLoop loop = measuredLoop(graph, id);
+    const MeasuredLoop loop = measured(id);
     const std::size_t from = odometry.indexOf(loop.from);
     const std::size_t to = odometry.indexOf(loop.to);
     if (odometry.motion(loop.from, loop.to))
@@ -33,7 +37,7 @@ loopsByLength(const PoseGraph& graph, const std::set<FactorId>& names)
   std::sort(lengths.begin(), lengths.end());
   std::vector<MeasuredLoop> loops;
   for (const auto& [length, id] : lengths)
-    loops.push_back(measuredLoop(graph, id));
+    loops.push_back(measured(id));
   return loops;
 }
 

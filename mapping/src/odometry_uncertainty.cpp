@@ -103,7 +103,9 @@ planarPart(const TangentMatrix& matrix)
 
 OdometryUncertainty::OdometryUncertainty(const PoseGraph& graph,
                                          const std::set<FactorId>& distrusted,
-                                         const NoiseScale& scale)
+                                         const NoiseScale& scale,
+                                         bool correlated)
+    : correlated_(correlated)
 {
   names_.reserve(graph.nodes().size());
   places_.reserve(graph.nodes().size());
@@ -139,8 +141,11 @@ OdometryUncertainty::motion(NodeId from, NodeId to) const
   const Place& second = places_[indexOf(to)];
   if (first.stretch != second.stretch)
     return std::nullopt;
-  const TangentMatrix between = from < to ? second.covariance - first.covariance
-                                          : first.covariance - second.covariance;
+  TangentMatrix between = from < to ? second.covariance - first.covariance
+                                    : first.covariance - second.covariance;
+  if (correlated_)
+    between *= static_cast<double>(from < to ? indexOf(to) - indexOf(from)
+                                             : indexOf(from) - indexOf(to));
   const TangentMatrix change = adjoint(second.T_start_node.inverse());
   return UncertainMotion{first.T_start_node.inverse() * second.T_start_node,
                          change * between * change.transpose()};

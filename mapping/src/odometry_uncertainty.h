@@ -50,10 +50,13 @@ squaredDistance(const Tangent& error, const TangentMatrix& covariance, bool plan
  * covariances propagated to first order. Sums from the start make any stretch O(1). */
 class OdometryUncertainty {
 public:
-  /** \param[in] distrusted factors to leave out \param[in] scale of all errors */
+  /** \param[in] distrusted factors to leave out \param[in] scale of all errors
+   * \param[in] correlated errors may all go the same way, as a wrong scale's do: the
+   * covariance is n times what n independent ones add up to */
   OdometryUncertainty(const PoseGraph& graph,
                       const std::set<FactorId>& distrusted,
-                      const NoiseScale& scale = {});
+                      const NoiseScale& scale = {},
+                      bool correlated = false);
 
   /** From node to node; nothing if odometry does not join them. */
   std::optional<UncertainMotion>
@@ -70,6 +73,7 @@ private:
     TangentMatrix covariance = TangentMatrix::Zero(); // in the start's frame
   };
 
+  bool correlated_;
   std::vector<NodeId> names_;
   std::vector<Place> places_;
 };

@@ -115,8 +115,13 @@ SlamPipeline::conclude()
   result_.trajectory = graph_.trajectory();
   result_.odometry = graph_.odometry();
   const std::vector<Keyframe>& keyframes = graph_.keyframes();
+  const auto scansOf = [&](const BetweenFactor& loop) {
+    return std::make_pair(keyframes[loop.from].scan, keyframes[loop.to].scan);
+  };
   for (const BetweenFactor& loop : graph_.loops())
-    result_.loops.emplace_back(keyframes[loop.from].scan, keyframes[loop.to].scan);
+    result_.loops.push_back(scansOf(loop));
+  for (const HeldLoop& held : graph_.heldLoops())
+    result_.held_loops.push_back(scansOf(held.loop));
 }
 
 void

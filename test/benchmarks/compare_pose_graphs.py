@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the PCL-NURBS authors
-"""pose_graph_optimize beside GTSAM (PyPI: gtsam) on g2o files, as a table in Markdown.
+"""pose_graph_optimize beside GTSAM and g2o (PyPI: gtsam, g2o-python), tables in Markdown.
 
 All start from the same poses, written by pose_graph_optimize; costs of all results are
 computed by it, too. Times are those of the solvers alone: GTSAM's optimize() and update(),
 ours as reported. Run it on an idle machine.
 
   compare_pose_graphs.py batch|incremental|scaling --tool pose_graph_optimize FILE.g2o...
+
+batch: from the starts of --init, each to a relative change of 1e-10. incremental: vertex by
+vertex. scaling: drives through a grid of streets of --poses poses; --plot PICTURE.png.
 """
 
 import argparse
@@ -18,6 +21,7 @@ import subprocess
 import tempfile
 import time
 
+import g2o
 import gtsam
 
 import pose_graph_files as files
@@ -56,9 +60,9 @@ def poses_of(graph, values):
     return {name: read(name) for name in graph.poses}
 
 
-def cost_of(args, source, graph, values):
+def cost_of(args, source, poses):
     path = os.path.join(args.folder, "peer.g2o")
-    files.write_poses(source, path, poses_of(graph, values))
+    files.write_poses(source, path, poses)
     return ours(args, path, "--local", "--iterations", "0")["initial_cost"]
 
 
@@ -80,7 +84,27 @@ def run_gtsam(args, start, graph, method):
         except RuntimeError:  # GTSAM's Gauss-Newton may meet a singular matrix
             return None
         times.append(time.perf_counter() - begin)
-    return statistics.median(times), cost_of(args, start, graph, result)
+    return statistics.median(times), cost_of(args, start, poses_of(graph, result))
+
+
+def run_g2o(args, start, graph, method):
+    """Its optimize(), Eigen's sparse Cholesky, which is the one that its wheel has."""
+    block, linear = ((g2o.BlockSolverSE2, g2o.LinearSolverEigenSE2) if graph.planar else
+                     (g2o.BlockSolverSE3, g2o.LinearSolverEigenSE3))
+    kind = g2o.OptimizationAlgorithmGaussNewton if method == "GN" else \
+        g2o.OptimizationAlgorithmLevenberg
+    times = []
+    for _ in range(args.runs):
+        optimizer = files.g2o_problem(graph, kind(block(linear())))
+        optimizer.initialize_optimization()
+        enough = g2o.SparseOptimizerTerminateAction()
+        enough.set_gain_threshold(1e-10)
+        optimizer.add_post_iteration_action(enough)
+        begin = time.perf_counter()
+        optimizer.optimize(200)
+        times.append(time.perf_counter() - begin)
+    return statistics.median(times), cost_of(args, start,
+                                             files.poses_of_g2o(graph, optimizer))
 
 
 def run_ours(args, start, method):
@@ -109,8 +133,9 @@ def batch(args):
             print(row(name, init, "ours, multifrontal", best, best[0]), flush=True)
             print(row(name, init, "ours, Ceres", run_ours(args, start, "ceres"), best[0]))
             for method in ("GN", "LM"):
-                peer = run_gtsam(args, start, graph, method)
-                print(row(name, init, "GTSAM " + method, peer, best[0]), flush=True)
+                for peer, run in (("GTSAM", run_gtsam), ("g2o", run_g2o)):
+                    print(row(name, init, f"{peer} {method}", run(args, start, graph, method),
+                              best[0]), flush=True)
 
 
 def isam_params(sensible):
@@ -159,7 +184,7 @@ def incremental(args):
         for sensible in (False, True):
             times, values = run_isam(graph, sensible)
             times.sort()
-            cost = cost_of(args, start, graph, values)["g2o"]
+            cost = cost_of(args, start, poses_of(graph, values))["g2o"]
             kind = "iSAM2, each update, 0.01" if sensible else "iSAM2, defaults"
             print(f"| {name} | {kind} | {1e3 * sum(times) / len(times):.3f} | "
                   f"{1e3 * times[(len(times) - 1) * 99 // 100]:.2f} | {1e3 * times[-1]:.1f} | "
@@ -167,17 +192,45 @@ def incremental(args):
 
 
 def scaling(args):
-    print("| poses | edges | ours ms | GTSAM LM ms | ratio | g2o cost ours | GTSAM |\n"
-          "| --- | --- | --- | --- | --- | --- | --- |")
+    print("| poses | edges | ours ms | GTSAM LM ms | ratio | g2o LM ms | ratio | g2o cost ours | "
+          "GTSAM | g2o |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    lines = {"ours": [], "GTSAM LM": [], "g2o LM": []}
     for poses in args.poses:
         source = os.path.join(args.folder, "grid.g2o")
         files.write_street_grid(source, poses)
         start = start_of(args, source, "chordal")
         graph = files.read_g2o(start)
-        seconds, cost = run_ours(args, start, "multifrontal")
-        peer, peer_cost = run_gtsam(args, start, graph, "LM")
-        print(f"| {poses} | {len(graph.edges)} | {1e3 * seconds:.1f} | {1e3 * peer:.1f} | "
-              f"{peer / seconds:.2f} | {cost['g2o']:.6g} | {peer_cost['g2o']:.6g} |", flush=True)
+        results = [run_ours(args, start, "multifrontal"), run_gtsam(args, start, graph, "LM"),
+                   run_g2o(args, start, graph, "LM")]
+        for line, (seconds, _) in zip(lines.values(), results):
+            line.append(seconds)
+        best = results[0][0]
+        times = [f"{1e3 * best:.1f}"]
+        for seconds, _ in results[1:]:
+            times += [f"{1e3 * seconds:.1f}", f"{seconds / best:.2f}"]
+        costs = [f"{cost['g2o']:.6g}" for _, cost in results]
+        print("| " + " | ".join([str(poses), str(len(graph.edges))] + times + costs) + " |",
+              flush=True)
+    if args.plot:
+        draw(args, lines)
+
+
+def draw(args, lines):
+    """Seconds over poses, both logarithmic."""
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    figure, axes = pyplot.subplots(figsize=(7, 4.5), dpi=100)
+    for name, seconds in lines.items():
+        axes.loglog(args.poses, seconds, "o-", label=name)
+    axes.loglog(args.poses, [lines["ours"][0] * n / args.poses[0] for n in args.poses], ":",
+                color="gray", label="in proportion to the poses")
+    axes.set_xlabel("poses")
+    axes.set_ylabel("seconds to the minimum")
+    axes.grid(True, which="both", alpha=0.3)
+    axes.legend()
+    figure.tight_layout()
+    figure.savefig(args.plot)
 
 
 def main():
@@ -189,6 +242,7 @@ def main():
     parser.add_argument("--runs", type=int, default=3, help="of which the median is taken")
     parser.add_argument("--init", nargs="*", default=["file", "chordal"])
     parser.add_argument("--poses", type=int, nargs="*", default=[1000, 3000, 10000, 30000, 100000])
+    parser.add_argument("--plot", help="where to draw the scaling")
     args = parser.parse_intermixed_args()
     with tempfile.TemporaryDirectory() as args.folder:
         {"batch": batch, "incremental": incremental, "scaling": scaling}[args.study](args)

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the PCL-NURBS authors
-"""g2o files as GTSAM graphs, and graphs of any size with known truth."""
+"""g2o files as graphs of GTSAM and g2o, and graphs of any size with known truth."""
 
 import dataclasses
 import random
 
+import g2o
 import gtsam
 import numpy as np
 
@@ -87,6 +88,42 @@ def anchor(graph, name):
     kind = gtsam.PriorFactorPose2 if graph.planar else gtsam.PriorFactorPose3
     noise = gtsam.noiseModel.Isotropic.Sigma(3 if graph.planar else 6, 1e-4)
     return kind(name, graph.poses[name], noise)
+
+
+def g2o_problem(graph, algorithm):
+    """The graph as g2o's, its first vertex fixed."""
+    problem, vertices = g2o.SparseOptimizer(), {}
+    problem.set_algorithm(algorithm)
+    vertex_kind, edge_kind = (g2o.VertexSE2, g2o.EdgeSE2) if graph.planar else (
+        g2o.VertexSE3, g2o.EdgeSE3)
+    for name, pose in graph.poses.items():
+        vertices[name] = vertex_kind()
+        vertices[name].set_id(name)
+        vertices[name].set_estimate(_g2o_pose(pose, graph.planar))
+        vertices[name].set_fixed(name == min(graph.poses))
+        problem.add_vertex(vertices[name])
+    to_file = np.diag([1, 1, 1] if graph.planar else [1, 1, 1, 2, 2, 2])
+    order = slice(None) if graph.planar else _TO_GTSAM  # its own inverse
+    for start, end, motion, information in graph.edges:
+        edge = edge_kind()
+        edge.set_vertex(0, vertices[start])
+        edge.set_vertex(1, vertices[end])
+        edge.set_measurement(_g2o_pose(motion, graph.planar))
+        edge.set_information(to_file @ information[order][:, order] @ to_file)
+        problem.add_edge(edge)
+    return problem
+
+
+def _g2o_pose(pose, planar):
+    return g2o.SE2(pose.x(), pose.y(), pose.theta()) if planar else g2o.Isometry3d(pose.matrix())
+
+
+def poses_of_g2o(graph, problem):
+    def pose(name):
+        estimate = problem.vertex(name).estimate()
+        return gtsam.Pose2(*estimate.to_vector()) if graph.planar else gtsam.Pose3(
+            estimate.matrix())
+    return {name: pose(name) for name in graph.poses}
 
 
 def write_street_grid(path, poses, seed=1):

@@ -219,6 +219,47 @@ TEST(KeyframeGraph, aDetectorOfOnesOwn)
   EXPECT_NEAR(moved.translation().norm(), 0.3, 0.05);
 }
 
+/** Finds what the other one finds, and claims now and then that a place a few metres
+ * off is the same. */
+class SometimesWrong : public ProximityLoopDetector {
+public:
+  explicit SometimesWrong(const ProximityLoopOptions& options)
+      : ProximityLoopDetector(options)
+  {
+  }
+
+  std::vector<BetweenFactor>
+  detect(const std::vector<Keyframe>& keyframes, const PoseGraph& graph) override
+  {
+    std::vector<BetweenFactor> found = ProximityLoopDetector::detect(keyframes, graph);
+    const std::size_t last = keyframes.size() - 1;
+    if (last % 12 != 11)
+      return found;
+    BetweenFactor wrong{last / 3, last, Eigen::Isometry3d::Identity(), {}};
+    wrong.T_from_to = graph.node(wrong.from).T_world_node.inverse() *
+                      graph.node(wrong.to).T_world_node *
+                      Eigen::Translation3d(0.0, 12.0, 0.5 * static_cast<double>(last));
+    wrong.information = 1e4 * TangentMatrix::Identity();
+    found.push_back(wrong);
+    return found;
+  }
+};
+
+TEST(KeyframeGraph, aFalseLoopDoesNotBendTheTrajectory)
+{
+  DriftingDrive drive;
+  drive.truth = ellipseDrive(250, 0.03);
+  const KeyframeGraph right =
+      drive.run(std::make_unique<ProximityLoopDetector>(loopOptions()));
+  const KeyframeGraph misled =
+      drive.run(std::make_unique<SometimesWrong>(loopOptions()));
+  EXPECT_GE(misled.heldLoops().size(), 1U);
+  EXPECT_EQ(misled.loops().size(), right.loops().size());
+  for (const HeldLoop& held : misled.heldLoops())
+    EXPECT_GT(drive.loopError(misled, held.loop).translation().norm(), 5.0);
+  EXPECT_NEAR(drive.error(misled.trajectory()), drive.error(right.trajectory()), 1e-3);
+}
+
 TEST(KeyframeGraph, refusesOptionsThatMakeNoSense)
 {
   KeyframeGraphOptions options;

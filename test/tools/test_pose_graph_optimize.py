@@ -26,6 +26,19 @@ def ring(nodes=20, angle_error=0.02):
     return "\n".join(lines) + "\n"
 
 
+def drive_with_loops(rounds=2, nodes=22):
+    """A ring driven twice, with an edge from each pose to the one a round later."""
+    turn, information = 2 * math.pi / nodes, "400 0 0 400 0 4000"
+    lines = []
+    for k in range(rounds * nodes - 1):
+        drift = 0.002 * (-1) ** k
+        lines.append(f"EDGE_SE2 {k} {k + 1} {1 + drift!r} 0 {turn + drift!r} {information}")
+    for k in range(nodes):
+        error = 0.003 * (-1) ** (k // 2)
+        lines.append(f"EDGE_SE2 {k} {k + nodes} {error!r} 0 {error!r} {information}")
+    return "\n".join(lines) + "\n"
+
+
 def space(nodes=8):
     """A spatial path with an edge from each node to the next two."""
     lines = [f"VERTEX_SE3:QUAT {k} {k * 1.1} {0.1 * k} 0 0 0 0 1" for k in range(nodes)]
@@ -75,6 +88,33 @@ class Results(GraphTest):
         figures = self.report("ring.g2o", "--incremental")["incremental"]
         self.assertEqual(figures["updates"], 20)
         self.assertLessEqual(figures["ms_mean"], figures["ms_max"])
+
+    def test_false_loops_are_left_out(self):
+        rows = drive_with_loops().splitlines()
+        false = ["EDGE_SE2 5 22 0.5 -2 1 400 0 0 400 0 4000",
+                 "EDGE_SE2 11 33 4 1 -2 400 0 0 400 0 4000"]
+        self.write("true.g2o", "\n".join(rows) + "\n")
+        self.write("all.g2o", "\n".join(rows + false) + "\n")
+        right = self.report("true.g2o", "--method", "multifrontal")
+        for method in ("consensus", "gnc", "switchable", "pcm"):
+            report = self.report("all.g2o", "out.g2o", "--robust", method)
+            loops = report["robust"]
+            self.assertEqual(loops["loops"], 24)
+            self.assertEqual(loops["accepted"] + len(loops["rejected"]), 24)
+            rejected = {(edge["from"], edge["to"]) for edge in loops["rejected"]}
+            self.assertEqual(rejected, {(5, 22), (11, 33)}, method)
+            for edge in loops["rejected"]:
+                self.assertGreater(abs(edge["distance"] - edge["limit"]), 0)
+                self.assertIn(edge["check"],
+                              ("odometry_cycle", "pairs", "weight", "joint_distance"))
+            cost = report["final_cost"]["g2o"]
+            self.assertAlmostEqual(cost, right["final_cost"]["g2o"], delta=1e-6 * (1 + cost))
+            edges = [row for row in (self.folder / "out.g2o").read_text().splitlines()
+                     if row.startswith("EDGE")]
+            self.assertEqual(edges, [row for row in rows if row.startswith("EDGE")])
+            (self.folder / "out.g2o").unlink()
+            text = self.succeed("all.g2o", "--robust", method).stdout
+            self.assertIn("2 of 24 loops rejected", text)
 
     def test_other_outputs(self):
         self.write("ring.g2o", ring())
@@ -134,7 +174,7 @@ class Failures(GraphTest):
         self.fail_with(1, "ring.g2o", "b", "c", says=["IN.g2o"])
         for option, value in (("--init", "best"), ("--cost", "chi"), ("--method", "gtsam"),
                               ("--iterations", "-1"), ("--tolerance", "0"), ("--tolerance", "nan"),
-                              ("--threads", "-1"), ("--seed", "x")):
+                              ("--threads", "-1"), ("--seed", "x"), ("--robust", "maybe")):
             self.fail_with(1, "ring.g2o", option, value)
 
     def test_bad_files(self):

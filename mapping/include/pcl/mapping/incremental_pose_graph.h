@@ -68,6 +68,9 @@ public:
   explicit IncrementalPoseGraph(PoseGraph graph,
                                 const IncrementalOptions& options = {});
 
+  IncrementalPoseGraph(IncrementalPoseGraph&&) noexcept;
+  IncrementalPoseGraph&
+  operator=(IncrementalPoseGraph&&) noexcept;
   ~IncrementalPoseGraph();
 
   /** \brief PoseGraph::addNode(). */

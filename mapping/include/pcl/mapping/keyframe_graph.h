@@ -4,7 +4,7 @@
 #pragma once
 
 #include <pcl/mapping/loop_detector.h>
-#include <pcl/mapping/pose_graph_solver.h>
+#include <pcl/mapping/loop_gate.h>
 #include <pcl/mapping/trajectory.h>
 #include <pcl/registration/scan_odometry.h>
 
@@ -25,15 +25,19 @@ struct KeyframeGraphOptions {
   /** Standard deviations of the motion of a scan that could not be aligned. */
   double lost_translation = 1.0;
   double lost_rotation = 0.1;
-  PoseGraphOptions solver;
+  /** Share of true loops that should agree with the graph at once, see LoopGate. */
+  double loop_probability = 0.99;
+  IncrementalOptions incremental;
+  PoseGraphOptions solver; /**< at the end of the drive */
 };
 
 /** \brief The third stage of a pipeline: keyframes become nodes of a pose graph,
  * odometry and loops its factors, and scans move with their keyframes.
  *
  * The covariance of the odometry between two keyframes is the sum of those of the
- * alignments in between and of its drift. The graph is optimised whenever loops are
- * found. Not to be called from several threads at a time. \ingroup mapping */
+ * alignments in between and of its drift. A loop costs the part of the graph that it
+ * touches; one that contradicts the graph is held back until others confirm it. The
+ * whole graph is optimised at the end. Not to be called from several threads at a time. \ingroup mapping */
 class PCL_NURBS_MAPPING_EXPORT KeyframeGraph {
 public:
   /** \param[in] detector finds loops; null for none
@@ -46,7 +50,8 @@ public:
   void
   add(std::size_t scan, double stamp, const OdometryResult& odometry);
 
-  /** \brief The drive is over: the last keyframe is complete. */
+  /** \brief The drive is over: the last keyframe is complete, the graph is optimised.
+   */
   void
   finish();
 
@@ -58,10 +63,11 @@ public:
   Trajectory
   odometry() const;
 
+  /** \brief With the loops that were let in. */
   const PoseGraph&
   graph() const
   {
-    return graph_;
+    return graph_.graph();
   }
 
   const std::vector<Keyframe>&
@@ -70,10 +76,15 @@ public:
     return keyframes_;
   }
 
-  const std::vector<BetweenFactor>&
-  loops() const
+  /** \brief Loops that are factors of the graph. */
+  std::vector<BetweenFactor>
+  loops() const;
+
+  /** \brief Loops that contradict the graph. */
+  const std::vector<HeldLoop>&
+  heldLoops() const
   {
-    return loops_;
+    return gate_.held();
   }
 
 private:
@@ -99,10 +110,10 @@ private:
 
   KeyframeGraphOptions options_;
   std::unique_ptr<LoopDetector> detector_;
-  PoseGraph graph_;
+  IncrementalPoseGraph graph_;
+  LoopGate gate_;
   std::vector<Keyframe> keyframes_;
   std::vector<AttachedScan> scans_;
-  std::vector<BetweenFactor> loops_;
   Eigen::Isometry3d last_pose_ = Eigen::Isometry3d::Identity();
   double way_ = 0.0;
   TangentMatrix covariance_ = TangentMatrix::Zero();

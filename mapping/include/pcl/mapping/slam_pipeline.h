@@ -42,6 +42,8 @@ struct SlamResult {
   std::vector<std::size_t> keyframes;
   /** Places that the drive came back to, by numbers of scans: earlier, later. */
   std::vector<std::pair<std::size_t, std::size_t>> loops;
+  /** Loops that were proposed but contradict the graph, and are not part of it. */
+  std::vector<std::pair<std::size_t, std::size_t>> held_loops;
   /** Scans after the first one that were aligned. */
   std::size_t tracked = 0;
   /** Scans left out because the sensor was faster. */
