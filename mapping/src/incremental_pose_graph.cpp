@@ -47,9 +47,18 @@ public:
   IncrementalUpdate
   update()
   {
-    const IncrementalUpdate result =
+    IncrementalUpdate result =
         rebuild_is_due ? equations.rebuild() : equations.update(options);
     rebuild_is_due = false;
+    for (int step = 1; step < options.max_steps; ++step) {
+      const IncrementalUpdate more = equations.update(options);
+      if (more.relinearized == 0)
+        break;
+      result.eliminated += more.eliminated;
+      result.relinearized += more.relinearized;
+      result.solved += more.solved;
+      result.all = result.all || more.all;
+    }
     return result;
   }
 
@@ -77,6 +86,19 @@ IncrementalOptions::validate() const
   if (!(relinearize_rotation >= 0.0) || !(relinearize_translation >= 0.0) ||
       !(solve_threshold >= 0.0))
     throw std::invalid_argument("thresholds must not be negative");
+  if (max_steps < 1)
+    throw std::invalid_argument("the number of steps must be positive");
+}
+
+IncrementalOptions
+IncrementalOptions::exact()
+{
+  IncrementalOptions options;
+  options.relinearize_rotation = 1e-4;
+  options.relinearize_translation = 1e-3;
+  options.solve_threshold = 1e-6;
+  options.max_steps = 3;
+  return options;
 }
 
 IncrementalPoseGraph::IncrementalPoseGraph(const IncrementalOptions& options)

@@ -117,6 +117,20 @@ TEST(IncrementalPoseGraph, FollowsTheBatchSolution)
   }
 }
 
+TEST(IncrementalPoseGraph, ExactlyIsWithinAMillionthOfTheBatchAtEachUpdate)
+{
+  for (const bool planar : {false, true}) {
+    const PoseGraph graph = randomGraph(5, {100, 60, 0.05, planar, false});
+    IncrementalPoseGraph growing(IncrementalOptions::exact());
+    for (const auto& [id, node] : graph.nodes()) {
+      addNext(growing, graph, id);
+      growing.update();
+      const double expected = batchCost(growing.graph());
+      EXPECT_LE(costOf(growing.graph()), (1.0 + 1e-6) * expected + 1e-9) << id;
+    }
+  }
+}
+
 /** Odometry at the end of a long chain touches a few poses only. */
 TEST(IncrementalPoseGraph, WorkIsThatOfWhatIsTouched)
 {
@@ -238,6 +252,9 @@ TEST(IncrementalPoseGraph, RefusesBadOptions)
 {
   IncrementalOptions options;
   options.relinearize_rotation = -1.0;
+  EXPECT_THROW(IncrementalPoseGraph{options}, std::invalid_argument);
+  options = {};
+  options.max_steps = 0;
   EXPECT_THROW(IncrementalPoseGraph{options}, std::invalid_argument);
 }
 

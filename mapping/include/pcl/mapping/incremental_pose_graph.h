@@ -21,6 +21,14 @@ struct IncrementalOptions {
   double relinearize_translation = 0.1;
   /** Changes below this are not followed down the tree (both units). */
   double solve_threshold = 1e-4;
+  /** Gauss-Newton steps of an update at most; there are fewer when no pose has to be
+   * linearised anew. */
+  int max_steps = 1;
+
+  /** \brief As near to the minimum at each update as it needs to be for a relative
+   * difference of the cost far below 1e-6, at two to three times the time. */
+  PCL_NURBS_MAPPING_EXPORT static IncrementalOptions
+  exact();
 
   /** \throws std::invalid_argument naming what is wrong */
   PCL_NURBS_MAPPING_EXPORT void
@@ -30,7 +38,7 @@ struct IncrementalOptions {
 /** \brief What an update did.
  * \ingroup mapping */
 struct IncrementalUpdate {
-  std::size_t eliminated = 0;   /**< poses that were eliminated anew */
+  std::size_t eliminated = 0;   /**< poses eliminated anew, in all steps together */
   std::size_t relinearized = 0; /**< poses whose factors were linearised anew */
   std::size_t solved = 0;       /**< poses whose estimate was computed anew */
   bool all = false;             /**< everything was done anew */
@@ -44,8 +52,8 @@ struct IncrementalUpdate {
  * the cliques of its nodes and those above them: these are taken apart, put in a new
  * order of elimination with the newest nodes last, and factored, while the rest stays
  * as it is. Poses that have moved far from where their factors were linearised count as
- * changed in the next update. Each update() does one Gauss-Newton step; optimizeAll()
- * finds the minimum.
+ * changed in the next update. Each update() does one Gauss-Newton step, or a few
+ * (IncrementalOptions::exact()); optimizeAll() finds the minimum.
  *
  * \code
  * IncrementalPoseGraph slam;
