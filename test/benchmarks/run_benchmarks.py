@@ -56,6 +56,15 @@ ROWS = {
            ("surfaces_laser", "Surfaces of a laser's image, 64 rows", "40 ms"),
            ("organize_laser", "The laser's image from its points", None))
        for n in (1, 2)},
+    **{f"register{basin}_{name}/iterations:1": (f"{what} {title}", None)
+       for basin, what in (("", "Align"), ("_basin", "Rough guesses,"))
+       for name, title in (("simulated_hdl64", "64 beams in a simulated town, 1.6 m apart"),
+                           ("simulated_vlp16", "16 beams in a simulated town, 1.6 m apart"),
+                           ("kitti_07", "KITTI 07, 0.1 to 0.2 m apart"),
+                           ("kitti_01", "KITTI 01 (every third point), 1 m apart"),
+                           ("tum_desk", "TUM fr1/desk"),
+                           ("seven_scenes", "7-Scenes redkitchen"),
+                           ("redwood", "Redwood living room"))},
     **{f"superpixels_scaling_{k}/{n}": (f"Graph and superpixels of {n} points, {k} neighbours", None)
        for k in (8, 4) for n in (10000, 100000, 1000000, 10000000)},
 }
