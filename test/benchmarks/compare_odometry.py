@@ -4,14 +4,16 @@
 
   compare_odometry.py RUN_ODOMETRY [--data FOLDER] [--drives FOLDER] [--threads 2]
                       [--only NAME ...] [--peers kiss_icp genz_icp small_gicp]
-                      [--scans N] [--report FILE.md] [--keep FOLDER]
+                      [--scans N] [--report FILE.md] [--results FILE.json]
+                      [--keep FOLDER]
 
 RUN_ODOMETRY is the program of that name that the benchmarks' build makes, --data the
 folder of public data sets (PCL_NURBS_DATA), --drives one that simulate_scans wrote. The
 peers come from PyPI (kiss-icp, genz-icp, small-gicp), as do evo, numpy, scipy and
 pillow: install them in a virtual environment and call this script with its Python. Each
 method runs in a process of its own, bound to as many processors as it has threads;
-reading the files is not timed.
+reading the files is not timed. Results of several calls are gathered in --results, and
+--report is about all that are there: a table per quantity.
 """
 import argparse
 import json
@@ -30,6 +32,7 @@ TITLES = {"ate_m": "ATE m", "relative_percent": "rel. transl. %",
           "relative_deg": "rel. rot. deg/100 m", "rpe_m": "per scan m",
           "cpu_ms": "CPU ms/scan", "wall_ms": "wall ms/scan", "peak_mb": "peak MB",
           "growth_mb": "growth MB", "lost": "lost"}
+REPORTED = ("ate_m", "relative_percent", "cpu_ms", "peak_mb")
 
 
 def run(command, threads):
@@ -137,18 +140,37 @@ def run_method(name, sequence, folder, out, args):
     return row
 
 
-def table(sequence, rows):
-    count = next(row["scans"] for row in rows.values() if row)
-    note = f"; {sequence.note}" if sequence.note else ""
-    lines = [f"**{sequence.name}** ({count:.0f} scans{note})", ""]
+def table(name, result):
+    rows = result["rows"]
+    lines = [f"**{name}** ({result['scans']:.0f} scans"
+             + (f"; {result['note']})" if result["note"] else ")"), ""]
     columns = [c for c in TITLES if any(row and c in row for row in rows.values())]
     lines.append("| | " + " | ".join(TITLES[c] for c in columns) + " |")
     lines.append("| --- |" + " --- |" * len(columns))
-    for name, row in rows.items():
+    for method, row in rows.items():
         cells = [f"{row[c]:.4g}" if c in row else "" for c in columns] if row else \
             ["failed"] + [""] * (len(columns) - 1)
-        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+        lines.append(f"| {method} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
+
+
+def report(results):
+    """A table per quantity: sequences by rows, methods by columns."""
+    methods = [name for name in ["ours", *PEERS]
+               if any(name in result["rows"] for result in results.values())]
+    lines = []
+    for column in REPORTED:
+        lines += [f"| {TITLES[column]} | scans | " + " | ".join(methods) + " |",
+                  "| --- | ---: |" + " ---: |" * len(methods)]
+        for name, result in results.items():
+            rows = {method: row for method, row in result["rows"].items()
+                    if row and column in row}
+            if rows:
+                cells = [f"{rows[m][column]:.3g}" if m in rows else "" for m in methods]
+                lines.append(f"| {name} | {result['scans']:.0f} | "
+                             + " | ".join(cells) + " |")
+        lines.append("")
+    return "\n".join(lines)
 
 
 def keep(args, sequence, name, folder, out):
@@ -172,7 +194,8 @@ def compare(sequence, args):
             rows[name] = run_method(name, sequence, folder, out, args)
             if args.keep and rows[name]:
                 keep(args, sequence, name, folder, out)
-    return table(sequence, rows)
+    return {"scans": next(row["scans"] for row in rows.values() if row),
+            "note": sequence.note, "rows": rows}
 
 
 def main():
@@ -186,18 +209,26 @@ def main():
     parser.add_argument("--peers", nargs="*", default=list(PEERS), choices=list(PEERS))
     parser.add_argument("--scans", type=int)
     parser.add_argument("--report")
+    parser.add_argument("--results")
     parser.add_argument("--keep")
     args = parser.parse_args()
     found = sequences.real_sequences(args.data) if args.data else []
     found += sequences.simulated_sequences(args.drives) if args.drives else []
-    tables = []
+    results = {}
+    if args.results and os.path.exists(args.results):
+        with open(args.results, encoding="utf-8") as file:
+            results = json.load(file)
     for sequence in found:
-        if not args.only or sequence.name in args.only:
-            tables.append(compare(sequence, args))
-            print(tables[-1], flush=True)
+        if args.only and sequence.name not in args.only:
+            continue
+        results[sequence.name] = compare(sequence, args)
+        print(table(sequence.name, results[sequence.name]), flush=True)
+        if args.results:
+            with open(args.results, "w", encoding="utf-8") as file:
+                json.dump(results, file, indent=1)
     if args.report:
         with open(args.report, "w", encoding="utf-8") as file:
-            file.write("\n".join(tables))
+            file.write(report(results))
 
 
 if __name__ == "__main__":
