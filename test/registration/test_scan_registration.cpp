@@ -41,7 +41,7 @@ makeProblem(const Scene& scene,
             double noise,
             double overlap,
             unsigned int seed,
-            int points = 6000)
+            int points = 10000)
 {
   std::mt19937 random(seed);
   Problem problem;
