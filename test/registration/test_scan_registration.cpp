@@ -37,13 +37,17 @@ struct Problem {
 
 /** Two independent samples of a scene; the source sees only a share of its length. */
 Problem
-makeProblem(const Scene& scene, double noise, double overlap, unsigned int seed)
+makeProblem(const Scene& scene,
+            double noise,
+            double overlap,
+            unsigned int seed,
+            int points = 10000)
 {
   std::mt19937 random(seed);
   Problem problem;
   problem.truth = randomMotion(0.5, 0.1, random);
-  const auto all = sampleScene(scene, 10000, noise, random);
-  auto seen = sampleScene(scene, 10000, noise, random);
+  const auto all = sampleScene(scene, points, noise, random);
+  auto seen = sampleScene(scene, points, noise, random);
   double low = 1e9;
   double high = -1e9;
   for (const Eigen::Vector3d& point : seen) {
@@ -127,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
 MatchResult
 alignWith(unsigned int threads, MatchMetric metric)
 {
-  const Problem problem = makeProblem(street(), 0.02, 0.8, 5);
+  const Problem problem = makeProblem(street(), 0.02, 0.8, 5, 4000);
   ScanRegistration<PointXYZ> registration;
   registration.setMetric(metric);
   registration.setNumberOfThreads(threads);
@@ -218,51 +222,6 @@ TEST(ScanRegistration, PointsOfOtherTypesAndIndices)
   ASSERT_TRUE(registration.hasConverged());
   EXPECT_EQ(aligned.size(), some->size());
   EXPECT_LT(errorOf(problem.truth, registration.getResult().pose).norm(), 0.02);
-}
-
-/** Aligns and expects a refusal. */
-void
-expectRefusal(const Cloud::Ptr& target,
-              const Cloud::Ptr& source,
-              const Eigen::Matrix4f& guess = Eigen::Matrix4f::Identity())
-{
-  ScanRegistration<PointXYZ> registration;
-  const Problem good = makeProblem(room(), 0.0, 1.0, 2);
-  registration.setInputTarget(good.target); // a good alignment before the bad one
-  registration.setInputSource(good.source);
-  Cloud aligned;
-  registration.align(aligned);
-  EXPECT_TRUE(registration.hasConverged());
-  registration.setInputTarget(target);
-  registration.setInputSource(source);
-  testing::internal::CaptureStderr();
-  registration.align(aligned, guess);
-  testing::internal::GetCapturedStderr();
-  EXPECT_FALSE(registration.hasConverged());
-  EXPECT_TRUE(registration.getFinalTransformation().allFinite());
-  EXPECT_TRUE(registration.getCovariance().isZero());
-}
-
-TEST(ScanRegistration, BadInputIsRefused)
-{
-  const Problem good = makeProblem(room(), 0.0, 1.0, 2);
-  const Cloud::Ptr empty(new Cloud);
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const Cloud::Ptr no_numbers(new Cloud(100, 1, PointXYZ(nan, nan, nan)));
-  const Cloud::Ptr one(new Cloud(1, 1, PointXYZ(1, 2, 3)));
-  const Cloud::Ptr far(new Cloud);
-  for (const PointXYZ& point : *good.source)
-    far->push_back(PointXYZ(point.x + 1000.0F, point.y, point.z));
-  expectRefusal(empty, good.source);
-  expectRefusal(good.target, empty);
-  expectRefusal(nullptr, good.source);
-  expectRefusal(good.target, nullptr);
-  expectRefusal(no_numbers, good.source);
-  expectRefusal(good.target, no_numbers);
-  expectRefusal(good.target, one);
-  expectRefusal(one, good.source);
-  expectRefusal(good.target, far);
-  expectRefusal(good.target, good.source, Eigen::Matrix4f::Constant(nan));
 }
 
 TEST(ScanRegistration, SomePointsWithoutNumbersAreSkipped)

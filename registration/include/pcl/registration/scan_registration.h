@@ -22,8 +22,9 @@ namespace pcl {
  * counts and setTransformationRotationEpsilon() the cosine of the smallest rotation.
  * Rejectors, estimators and search methods of the base are not used.
  *
- * What cannot be aligned (no points, no overlap, a guess that is not finite) is said by
- * PCL_ERROR and hasConverged() is false.
+ * What cannot be aligned (no points, no overlap, points without a surface, a guess that
+ * is no rigid motion) is said by PCL_ERROR and hasConverged() is false; the pose stays
+ * finite. Coordinates must lie within a million voxels of the origin.
  *
  * \code
  * pcl::ScanRegistration<pcl::PointXYZ> registration;
@@ -191,6 +192,10 @@ protected:
 private:
   void
   forgetResult();
+
+  /** \throws std::invalid_argument when it is no rigid motion */
+  static void
+  checkGuess(const Matrix4& guess);
 
   void
   buildMap();

@@ -100,15 +100,29 @@ ScanRegistration<PointT>::matchOptions() const
 }
 
 template <typename PointT>
+void
+ScanRegistration<PointT>::checkGuess(const Matrix4& guess)
+{
+  constexpr float kTolerance = 1e-3F; // what products of many floats may be off by
+  if (!guess.allFinite())
+    throw std::invalid_argument("the initial guess is not finite");
+  const auto rotation = guess.template topLeftCorner<3, 3>();
+  if (!(rotation * rotation.transpose()).isIdentity(kTolerance) ||
+      rotation.determinant() < 0.0F ||
+      !guess.row(3).isApprox(Matrix4::Identity().row(3), kTolerance))
+    throw std::invalid_argument("the initial guess is not a rigid motion");
+}
+
+template <typename PointT>
 nurbs::MatchResult
 ScanRegistration<PointT>::match(const Matrix4& guess)
 {
-  if (!guess.allFinite())
-    throw std::invalid_argument("the initial guess is not finite");
+  checkGuess(guess);
   if (!map_)
     buildMap();
   if (map_->fine().empty())
-    throw std::invalid_argument("no finite point in the target");
+    throw std::invalid_argument("no finite point in the target within a million voxels "
+                                "of its origin");
   const nurbs::ScanPoints points = sourcePoints();
   if (points.empty())
     throw std::invalid_argument("no finite point in the source");
@@ -142,7 +156,11 @@ ScanRegistration<PointT>::computeTransformation(PointCloudSource& output,
   transformation_ = final_transformation_;
   transformPointCloud(output, output, final_transformation_);
   if (result_.correspondences == 0)
-    PCL_ERROR("[pcl::ScanRegistration::align] The scans do not overlap.\n");
+    PCL_ERROR("[pcl::ScanRegistration::align] The scans do not overlap: fewer than six "
+              "pairs.\n");
+  else if (result_.degeneracy.unsupported == 6)
+    PCL_ERROR("[pcl::ScanRegistration::align] No direction of the pose is held: the "
+              "points have no surface.\n");
 }
 
 } // namespace pcl
