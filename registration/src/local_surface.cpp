@@ -10,6 +10,8 @@ namespace nurbs {
 namespace {
 
 constexpr double kMinPoints = 6.0;
+/** Points within a micrometre are one point many times over. */
+constexpr double kMinVariance = 1e-12; // metres squared
 /** Of the variance, at most so much across the plane ... */
 constexpr double kMaxThickness = 0.03;
 /** ... and at least so much across the longest extent: one ring is no plane. */
@@ -50,6 +52,8 @@ localSurface(const PointMoments& moments)
   const Eigen::Vector3d variance = solver.eigenvalues();
   const Eigen::Matrix3d axes = solver.eigenvectors();
   const double total = variance.sum();
+  if (!(total > kMinVariance))
+    return surface;
   surface.scattered =
       moments.count >= kMinScatterPoints && variance[0] >= kMinScatter * total;
   if (variance[0] <= kMaxThickness * total && variance[1] >= kMinWidth * total) {

@@ -35,15 +35,6 @@ constexpr std::size_t kSearchStarts = 4;
 constexpr PoseSearchRange kTurns;
 constexpr PoseSearchRange kTurnsAndShifts{2.0, 0.35, 8, 2};
 
-/** Share of the scan on the map; less, where other points are near it but not on it. */
-double
-fitOf(const MatchResult& match)
-{
-  return match.near_share > 0.0
-             ? match.inlier_share * match.inlier_share / match.near_share
-             : 0.0;
-}
-
 /** Whether the surroundings hold so little that other places fit as well. */
 bool
 isAmbiguous(const MatchResult& match)
@@ -67,8 +58,8 @@ isDoubtful(const MatchResult& match, double usual_share)
 bool
 isBetter(const MatchResult& match, const MatchResult& than)
 {
-  const double fit = fitOf(than);
-  return fitOf(match) > fit + std::min(kBetterFit, kBetterFitRatio * fit);
+  const double fit = than.fit();
+  return match.fit() > fit + std::min(kBetterFit, kBetterFitRatio * fit);
 }
 
 bool

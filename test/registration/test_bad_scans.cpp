@@ -109,6 +109,13 @@ TEST(BadScans, OnePoint)
   expectRefusal(cloudOf(1, [](float) { return PointXYZ(1, 2, 3); }), "align]");
 }
 
+TEST(BadScans, OnePointManyTimesOver)
+{
+  const auto point = cloudOf(500, [](float) { return PointXYZ(1.1F, 2.3F, 0.7F); });
+  for (const auto metric : {MatchMetric::PointToPlane, MatchMetric::PlaneToPlane})
+    EXPECT_NE(refusal(metric, point, point).find("No direction"), std::string::npos);
+}
+
 TEST(BadScans, OneLineOnly)
 {
   const auto line =
