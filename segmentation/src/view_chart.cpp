@@ -119,8 +119,7 @@ ViewChart::unscaledSigma(std::size_t cell) const
   const double direction = static_cast<double>(direction_noise_[cell]);
   const double shape = kSpacingShare * (spacing_ + spacing_per_depth_ * depth) +
                        kDepthShare * (angular_ ? depth : scale_);
-  const double all =
-      std::sqrt(sensor * sensor + direction * direction + shape * shape);
+  const double all = std::sqrt(sensor * sensor + direction * direction + shape * shape);
   return angular_ ? all / (depth * depth) : all;
 }
 

@@ -21,7 +21,8 @@ namespace nurbs {
  * \ingroup mapping */
 class PCL_NURBS_MAPPING_EXPORT PoseGraphCovariance {
 public:
-  /** \brief Linearise, factor and invert. The poses that optimize() would hold are held.
+  /** \brief Linearise, factor and invert. The poses that optimize() would hold are
+   * held.
    * \throws std::invalid_argument if a node with factors has no estimate, or if the
    * factors do not determine all poses */
   explicit PoseGraphCovariance(const PoseGraph& graph,
