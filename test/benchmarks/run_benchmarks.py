@@ -170,6 +170,11 @@ seeds are fixed. Ratio: time of the peer divided by ours, above 1 is faster than
 peer. "difference" compares with our own results at the same parameters, relative;
 "truth rms" is the height error against the noise-free surface. Peak memory is that of
 the whole process, data included.
+
+On pages of their own: [pose graphs](pose_graph_benchmarks.md) beside GTSAM and g2o, also
+[with false loops](pose_graph_robust.md); [registration and odometry](registration.md)
+beside PCL, KISS-ICP, GenZ-ICP and small_gicp; [segmentation against
+labels](segmentation_quality.md) and [its scaling](segmentation_scaling.md).
 """
 COLUMNS = ["Row", "Quality, ours", "Quality, peer", "Time, ours", "Time, peer", "Ratio",
            "Target", "MB, ours", "MB, peer"]
