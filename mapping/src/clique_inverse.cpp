@@ -57,7 +57,6 @@ CliqueInverse::invert(Part& part) const
       own,
       Eigen::OuterStride<>(own + separator + tree_.right_sides_));
   const auto factor = panel.topRows(own).triangularView<Eigen::Lower>();
-  part.given = factor.transpose().solve(panel.bottomRows(separator).transpose());
   const Eigen::MatrixXd root =
       factor.solve(Eigen::MatrixXd::Identity(own, own)); // of the inverse
   part.inverse.resize(own + separator, own + separator);
@@ -65,6 +64,7 @@ CliqueInverse::invert(Part& part) const
   corner.noalias() = root.transpose() * root;
   if (separator == 0)
     return;
+  part.given = factor.transpose().solve(panel.bottomRows(separator).transpose());
   auto cross = part.inverse.topRightCorner(own, separator);
   part.inverse.bottomRightCorner(separator, separator) =
       at(part.clique->parent).inverse(part.in_parent, part.in_parent);
