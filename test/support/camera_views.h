@@ -39,12 +39,11 @@ GridPoints
 noisyView(const Depth& depth, double sigma)
 {
   std::mt19937 random(3);
-  std::normal_distribution<double> error(0.0, sigma);
+  std::normal_distribution<double> error; // of one unit: there may be none
   const GridGeometry geometry = camera();
   return toGridPoints(cameraCloud(geometry,
                                   [&](int column, int row) {
-                                    return depth(column, row) +
-                                           (sigma > 0.0 ? error(random) : 0.0);
+                                    return depth(column, row) + sigma * error(random);
                                   }),
                       geometry);
 }

@@ -38,9 +38,9 @@ inline void
 addNoise(FitPoints& points, double sigma, unsigned seed)
 {
   std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal(0.0, sigma);
+  std::normal_distribution<double> normal;
   for (Eigen::Index k = 0; k < points.positions.cols(); ++k)
-    points.positions(2, k) += normal(engine);
+    points.positions(2, k) += sigma * normal(engine);
   points.sigma.setConstant(points.positions.cols(), sigma);
 }
 

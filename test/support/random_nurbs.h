@@ -31,7 +31,7 @@ public:
   double
   normal(double sigma)
   {
-    return std::normal_distribution<double>(0.0, sigma)(engine_);
+    return sigma * std::normal_distribution<double>()(engine_);
   }
 
   int
