@@ -4,6 +4,8 @@
 #include <pcl/registration/map_pyramid.h>
 #include <pcl/registration/scan_preprocessing.h>
 
+#include "scan_alignment.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -20,8 +22,6 @@ constexpr int kCoarseIterations = 20;
 constexpr double kCoarseStep = 0.02;
 /** Pairs may be so many voxels apart. */
 constexpr double kReach = 2.0;
-/** With so much of a scan on the map there is no better place for it. */
-constexpr double kSureShare = 0.7;
 
 MatchOptions
 coarseOptions(MatchOptions options, double voxel_size)

@@ -14,10 +14,8 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
-/** With so much of a scan on the map there is no better place for it ... */
-constexpr double kSureShare = 0.7;
-/** ... and with less than this on it and near it, it may be farther away than turns
- * and a short way. */
+/** With less than this of a scan on the map and near it, it may be farther away than
+ * turns and a short way. */
 constexpr double kFarShare = 0.5;
 constexpr double kFarNearShare = 0.7;
 /** It is in doubt when it has not settled, or with less than this of what is usual. */

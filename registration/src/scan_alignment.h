@@ -10,6 +10,8 @@ namespace nurbs {
 
 /** A scan is lost with a smaller share of it on the map. */
 constexpr double kLostShare = 0.25;
+/** With so much of a scan on the map there is no better place for it. */
+constexpr double kSureShare = 0.7;
 
 /** What is known about a scan before it is aligned. */
 struct ScanPrediction {
