@@ -81,10 +81,7 @@ officeSegment(State& state, int connectivity)
   segmentation.setMode(EntropyRateSegmentation<PointXYZ>::SUPERPIXELS);
   segmentation.setConnectivity(connectivity);
   segmentation.setInputCloud(cloud);
-  std::vector<PointIndices> segments;
-  for (auto _ : state)
-    segmentation.segment(segments);
-  state.counters["segments"] = static_cast<double>(segments.size());
+  bench::measureSegment(state, segmentation);
 }
 
 void

@@ -46,10 +46,7 @@ surfaces(State& state,
   if (geometry)
     segmentation.setGeometry(*geometry);
   segmentation.setInputCloud(cloud);
-  std::vector<PointIndices> segments;
-  for (auto _ : state)
-    segmentation.segment(segments);
-  state.counters["segments"] = static_cast<double>(segments.size());
+  bench::measureSegment(state, segmentation);
 }
 
 void

@@ -5,11 +5,14 @@
 
 #include "test_data.h"
 
+#include <pcl/PointIndices.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
 #include <benchmark/benchmark.h>
+
+#include <vector>
 
 namespace pcl {
 namespace nurbs {
@@ -26,6 +29,17 @@ office(benchmark::State& state)
     return cloud;
   state.SkipWithError("data set pcl_organized is not there");
   return nullptr;
+}
+
+/** \brief Time segment() of a segmentation that has its input; counter "segments". */
+template <typename Segmentation>
+void
+measureSegment(benchmark::State& state, Segmentation& segmentation)
+{
+  std::vector<PointIndices> segments;
+  for (auto _ : state)
+    segmentation.segment(segments);
+  state.counters["segments"] = static_cast<double>(segments.size());
 }
 
 } // namespace bench
