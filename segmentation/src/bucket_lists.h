@@ -11,15 +11,17 @@
 namespace pcl {
 namespace nurbs {
 
-/** Lists of numbers in chunks of one pool: about 5 bytes per number whatever the
- * lengths of the lists, and reading is sequential. */
+/** Lists of small values in chunks of one pool: each value takes little more than its
+ * size whatever the lengths of the lists, and reading is sequential.
+ * \tparam Value of 4 to 16 bytes */
+template <typename Value>
 class BucketLists {
 public:
   /** \param[in] buckets number of lists
-   * \param[in] numbers how many numbers there may be at a time */
-  BucketLists(std::size_t buckets, std::size_t numbers) : heads_(buckets)
+   * \param[in] values how many values there may be at a time */
+  BucketLists(std::size_t buckets, std::size_t values) : heads_(buckets)
   {
-    chunks_.reserve(numbers / kPerChunk + buckets);
+    chunks_.reserve(values / kPerChunk + buckets);
   }
 
   std::size_t
@@ -29,7 +31,7 @@ public:
   }
 
   void
-  push(std::size_t bucket, std::uint32_t number)
+  push(std::size_t bucket, const Value& value)
   {
     Head& head = heads_[bucket];
     if (head.count == kPerChunk) {
@@ -37,31 +39,37 @@ public:
       chunks_[fresh].next = head.chunk;
       head = {fresh, 0};
     }
-    chunks_[head.chunk].numbers[head.count++] = number;
+    chunks_[head.chunk].values[head.count++] = value;
   }
 
-  /** Move a list to a vector; its order is arbitrary but the same every time. */
+  /** Move a list to a vector; its order is arbitrary but the same every time. The next
+   * list is sent to the cache. */
   void
-  take(std::size_t bucket, std::vector<std::uint32_t>& numbers)
+  take(std::size_t bucket, std::vector<Value>& values)
   {
-    numbers.clear();
+    values.clear();
     Head& head = heads_[bucket];
     while (head.chunk != kNone) {
       const Chunk& chunk = chunks_[head.chunk];
-      numbers.insert(
-          numbers.end(), chunk.numbers.begin(), chunk.numbers.begin() + head.count);
+      prefetch(chunk.next);
+      values.insert(
+          values.end(), chunk.values.begin(), chunk.values.begin() + head.count);
       free_.push_back(head.chunk);
       head = {chunk.next, kPerChunk};
     }
+    if (bucket + 1 < size())
+      prefetch(heads_[bucket + 1].chunk);
   }
 
 private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  static constexpr std::uint32_t kPerChunk = 31;
+  static constexpr std::size_t kChunkBytes = 508;
+  static constexpr std::size_t kCacheLine = 64;
+  static constexpr std::uint32_t kPerChunk = kChunkBytes / sizeof(Value);
 
   struct Chunk {
     std::uint32_t next;
-    std::array<std::uint32_t, kPerChunk> numbers;
+    std::array<Value, kPerChunk> values;
   };
 
   /** First chunk of a list, the only one that may have room. A list without chunks
@@ -70,6 +78,16 @@ private:
     std::uint32_t chunk = kNone;
     std::uint32_t count = kPerChunk;
   };
+
+  void
+  prefetch(std::uint32_t chunk) const
+  {
+    if (chunk == kNone)
+      return;
+    const char* const first = reinterpret_cast<const char*>(&chunks_[chunk]);
+    for (std::size_t byte = 0; byte < sizeof(Chunk); byte += kCacheLine)
+      __builtin_prefetch(first + byte);
+  }
 
   std::uint32_t
   takeChunk()

@@ -59,15 +59,11 @@ public:
             weight >= min_weight_ ? weight : 0.0F};
   }
 
-  /** Where an edge is stored. */
-  std::array<const void*, 2>
-  places(std::size_t number) const
+  /** First node of an edge. */
+  std::uint32_t
+  source(std::uint32_t number) const
   {
-    if (list_ != nullptr)
-      return {&list_[number], &list_[number]};
-    const std::size_t direction = directionOf(number);
-    const std::size_t cell = number >> shift_;
-    return {&target_[direction][cell], &weight_[direction][cell]};
+    return list_ != nullptr ? list_[number].a : number >> shift_;
   }
 
 private:

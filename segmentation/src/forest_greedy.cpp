@@ -12,22 +12,14 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
-/** Edges per bucket: their nodes and the heap over them fit the cache. */
-constexpr std::size_t kPerBucket = 128;
-constexpr std::size_t kMostBuckets = 1U << 16U;
-/** Groups of up to so many nodes have their x log x in a table. */
-constexpr std::uint32_t kTabulated = 4096;
+/** How many edges ahead nodes are sent for, and the sizes of their groups. */
+constexpr std::size_t kFar = 20;
+constexpr std::size_t kSoon = 10;
 
-/** How many edges ahead something is sent for. */
-constexpr std::size_t kFar = 24;
-constexpr std::size_t kNear = 16;
-constexpr std::size_t kSoon = 8;
-
-/** Buckets for so many edges. */
-std::size_t
-numBuckets(std::size_t edges)
+SelfLoop
+loopOf(double weight)
 {
-  return std::clamp(edges / kPerBucket, std::size_t{1}, kMostBuckets);
+  return {weight, xLogX(weight)};
 }
 
 } // namespace
@@ -35,16 +27,16 @@ numBuckets(std::size_t edges)
 ForestGreedy::ForestGreedy(const EdgeView& edges, const std::vector<bool>& member)
     : edges_(edges),
       nodes_(edges.nodes()),
-      lists_(numBuckets(edges.size()), edges.size())
+      sizes_(edges.nodes(), 1),
+      queue_(edges.size())
 {
-  for (std::uint32_t size = 0; size < kTabulated; ++size)
-    size_terms_.push_back(xLogX(size));
   for (const bool taken : member)
     members_ += taken ? 1 : 0;
   groups_left_ = members_;
   selected_.reserve(members_);
+  unit_ = startLoops();
   // A step from a node to itself loses at most the entropy of a coin.
-  setRange(0.0, 2.0 * std::log(2.0) * startLoops());
+  queue_.setRange(0.0, 2.0 * std::log(2.0) * unit_);
   enqueueAll(member);
 }
 
@@ -57,16 +49,14 @@ ForestGreedy::startLoops()
     const WeightedEdge edge = edges_[number];
     if (!(edge.weight > 0.0F))
       continue;
-    nodes_[edge.a].loop.weight += edge.weight;
-    nodes_[edge.b].loop.weight += edge.weight;
+    nodes_[edge.a].loop += edge.weight;
+    nodes_[edge.b].loop += edge.weight;
   }
   double heaviest = 0.0;
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-    SelfLoop& loop = nodes_[i].loop;
-    loop.term = xLogX(loop.weight);
     nodes_[i].group = nodes_[i].next = i;
-    total_weight_ += loop.weight;
-    heaviest = std::max(heaviest, loop.weight);
+    total_weight_ += nodes_[i].loop;
+    heaviest = std::max(heaviest, nodes_[i].loop);
   }
   return heaviest;
 }
@@ -74,14 +64,30 @@ ForestGreedy::startLoops()
 void
 ForestGreedy::enqueueAll(const std::vector<bool>& member)
 {
+  std::vector<QueuedEdge> edges;
   for (std::uint32_t number = 0; number < edges_.size(); ++number) {
     const WeightedEdge edge = edges_[number];
-    if (!(edge.weight > 0.0F) || !member[edge.a])
-      continue;
-    const double bound = gainBound(edge); // the balance of single nodes is 0
+    if (edge.weight > 0.0F && member[edge.a])
+      edges.push_back({number, edge.b, edge.weight});
+    if (edges.size() == EdgeBatch::kMost || number + 1 == edges_.size()) {
+      enqueueFirst(edges);
+      edges.clear();
+    }
+  }
+}
+
+/** Enqueue edges between single nodes, whose balance is 0. */
+void
+ForestGreedy::enqueueFirst(const std::vector<QueuedEdge>& edges)
+{
+  gather(edges, 0);
+  batch_.boundGains();
+  for (std::size_t k = 0; k < batch_.count; ++k) {
+    const QueuedEdge& edge = edges[batch_.place[k]];
+    const double bound = boundOf(k);
     if (bound > first_gain_)
       first_gain_ = std::max(first_gain_, gainOf(edge));
-    enqueue(number, bound);
+    queue_.push(edge, bound);
   }
 }
 
@@ -90,197 +96,179 @@ ForestGreedy::run(std::size_t groups, double lambda)
 {
   groups_wanted_ = groups;
   // The bounds that are known remain right: all groups are single nodes still.
-  scale_ = lambda * total_weight_ / static_cast<double>(members_);
+  balance_.setScale(lambda * total_weight_ / static_cast<double>(members_));
   openBuckets();
-  while (!waiting_.empty() && !done()) {
-    enqueueWaiting();
+  for (std::vector<QueuedEdge> waiting = queue_.takeWaiting();
+       !waiting.empty() && !done();
+       waiting = queue_.takeWaiting()) {
+    enqueueAgain(waiting);
     openBuckets();
   }
-  lists_ = BucketLists(0, 0);
+  queue_ = KeyBuckets(0);
 }
 
 void
 ForestGreedy::openBuckets()
 {
-  for (std::size_t bucket = 0; bucket < lists_.size() && !done(); ++bucket)
+  for (std::size_t bucket = 0; bucket < queue_.size() && !done(); ++bucket)
     openBucket(bucket);
 }
 
-inline double
-ForestGreedy::sizeTerm(std::uint32_t size) const
-{
-  return size < kTabulated ? size_terms_[size] : xLogX(size);
-}
-
-inline double
-ForestGreedy::balanceOf(const Node& group_a, const Node& group_b) const
-{
-  return scale_ * (sizeTerm(group_a.size) + sizeTerm(group_b.size) -
-                   sizeTerm(group_a.size + group_b.size) + sizeTerm(2));
-}
-
-double
-ForestGreedy::gainOf(const WeightedEdge& edge) const
-{
-  return scaledEdgeGain(nodes_[edge.a].loop, nodes_[edge.b].loop, edge.weight);
-}
-
-/** Hardly more than gainOf(), and no less. */
-inline double
-ForestGreedy::gainBound(const WeightedEdge& edge) const
-{
-  const SelfLoop& a = nodes_[edge.a].loop;
-  const SelfLoop& b = nodes_[edge.b].loop;
-  const double w = edge.weight;
-  const FastXLogX& f = fast_x_log_x_;
-  return a.term - f(a.weight - w) + b.term - f(b.weight - w) - 2.0 * f(w) +
-         FastXLogX::kError * (a.weight + b.weight);
-}
-
-/** Spread the waiting edges over buckets from their highest key to their lowest. */
+/** Spread edges over buckets from their highest key to their lowest. */
 void
-ForestGreedy::enqueueWaiting()
+ForestGreedy::enqueueAgain(std::vector<QueuedEdge>& edges)
 {
-  std::vector<std::uint32_t> again;
-  again.swap(waiting_);
-  std::vector<double> keys; // and a little more
-  keys.reserve(again.size());
+  std::vector<double> bounds;
+  bounds.reserve(edges.size());
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (const std::uint32_t number : again) {
-    const WeightedEdge edge = edges_[number];
-    const std::uint32_t a = groupOf(edge.a);
-    const std::uint32_t b = groupOf(edge.b);
-    if (a == b)
-      continue;
-    keys.push_back(gainBound(edge) + balanceOf(nodes_[a], nodes_[b]));
-    low = std::min(low, keys.back());
-    high = std::max(high, keys.back());
-    again[keys.size() - 1] = number;
+  for (std::size_t first = 0; first < edges.size();) {
+    first = gather(edges, first);
+    batch_.boundGains();
+    for (std::size_t k = 0; k < batch_.count; ++k) {
+      edges[bounds.size()] = edges[batch_.place[k]];
+      bounds.push_back(boundOf(k));
+      low = std::min(low, bounds.back());
+      high = std::max(high, bounds.back());
+    }
   }
-  setRange(low, high);
-  for (std::size_t k = 0; k < keys.size(); ++k)
-    enqueue(again[k], keys[k]);
-}
-
-void
-ForestGreedy::setRange(double low, double high)
-{
-  highest_ = high;
-  buckets_per_key_ =
-      high > low ? static_cast<double>(lists_.size()) / (high - low) : 0.0;
-}
-
-/** Put an edge in the list of its bucket; what is in range has one. */
-void
-ForestGreedy::enqueue(std::uint32_t edge, double key)
-{
-  lists_.push(std::min(bucketOf(key), lists_.size() - 1), edge);
-}
-
-/** Number of a bucket, or beyond the last where the key is below all buckets. */
-inline std::size_t
-ForestGreedy::bucketOf(double key) const
-{
-  const double place = (highest_ - key) * buckets_per_key_;
-  if (!(place > 0.0))
-    return 0;
-  return static_cast<std::size_t>(std::min(place, static_cast<double>(lists_.size())));
+  queue_.setRange(low, high);
+  for (std::size_t k = 0; k < bounds.size(); ++k)
+    queue_.push(edges[k], bounds[k]);
 }
 
 void
 ForestGreedy::openBucket(std::size_t bucket)
 {
-  lists_.take(bucket, opened_);
-  considerOpened(bucket);
-  while (!heap_.empty() && !done()) {
-    std::pop_heap(heap_.begin(), heap_.end(), Later());
-    const Candidate best = heap_.back();
-    heap_.pop_back();
-    const WeightedEdge edge = edges_[best.edge];
-    const std::uint32_t a = groupOf(edge.a);
-    const std::uint32_t b = groupOf(edge.b);
-    if (std::max(nodes_[a].changed, nodes_[b].changed) > best.rated)
-      consider(bucket, best.edge);
-    else
-      select(best.edge);
-  }
+  queue_.take(bucket, opened_);
+  rated_.resize(opened_.size());
+  orderOpened(bucket);
+  while (!done() && !order_.empty())
+    consider(bucket, order_.take());
 }
 
-/** Consider the edges of a bucket while what is needed of those that follow is on its
- * way to the cache: the edge, then its nodes, then the nodes that name their groups.
- * (In a function of their own, compilers take prefetches for nothing.) */
+/** Bound the keys of the opened edges together, and order those that may belong here by
+ * their exact ones. */
 void
-ForestGreedy::considerOpened(std::size_t bucket)
+ForestGreedy::orderOpened(std::size_t bucket)
 {
-  const std::size_t count = opened_.size();
-  for (std::size_t k = 0; k < count + kFar; ++k) {
-    if (k < count)
-      for (const void* place : edges_.places(opened_[k]))
-        __builtin_prefetch(place);
-    if (k >= kFar - kNear && k - (kFar - kNear) < count) {
-      const WeightedEdge edge = edges_[opened_[k - (kFar - kNear)]];
-      __builtin_prefetch(&nodes_[edge.a]);
-      __builtin_prefetch(&nodes_[edge.b]);
+  for (std::size_t first = 0; first < opened_.size();) {
+    first = gather(opened_, first);
+    batch_.boundGains();
+    for (std::size_t k = 0; k < batch_.count; ++k) {
+      const std::uint32_t place = batch_.place[k];
+      const QueuedEdge& edge = opened_[place];
+      if (queue_.postpone(bucket, edge, boundOf(k)))
+        continue;
+      const double key = gainOf(edge) + batch_.balance[k];
+      if (queue_.postpone(bucket, edge, key))
+        continue;
+      rated_[place] = batch_.nodes[k];
+      order_.add({key, edge.number, place});
     }
-    if (k >= kFar - kSoon && k - (kFar - kSoon) < count) {
-      const WeightedEdge edge = edges_[opened_[k - (kFar - kSoon)]];
-      __builtin_prefetch(&nodes_[groupOf(edge.a)]);
-      __builtin_prefetch(&nodes_[groupOf(edge.b)]);
-    }
-    if (k >= kFar)
-      consider(bucket, opened_[k - kFar]);
   }
+  order_.sort();
 }
 
-/** Let an edge wait for a later bucket than the open one, if its key belongs there. */
-inline bool
-ForestGreedy::postpone(std::size_t bucket, std::uint32_t edge, double key)
-{
-  const std::size_t place = bucketOf(key);
-  if (place <= bucket)
-    return false;
-  if (place < lists_.size())
-    lists_.push(place, edge);
-  else
-    waiting_.push_back(edge);
-  return true;
-}
-
-/** Put an edge where its key belongs, in the order of this bucket or in a later one. */
+/** Select an opened edge if no other can be before it, or put it back where its exact
+ * key belongs. A key changes only when one of its groups grows. */
 void
-ForestGreedy::consider(std::size_t bucket, std::uint32_t number)
+ForestGreedy::consider(std::size_t bucket, const Candidate& candidate)
 {
-  const WeightedEdge edge = edges_[number];
-  const std::uint32_t a = groupOf(edge.a);
-  const std::uint32_t b = groupOf(edge.b);
+  const std::uint32_t place = candidate.place();
+  const QueuedEdge& edge = opened_[place];
+  const std::uint32_t a = groupOf(edges_.source(edge.number));
+  const std::uint32_t b = groupOf(edge.target);
   if (a == b)
     return;
-  const double balance = balanceOf(nodes_[a], nodes_[b]);
-  if (postpone(bucket, number, gainBound(edge) + balance))
+  const std::uint32_t nodes = sizes_[a] + sizes_[b];
+  const double balance = balance_(sizes_[a], sizes_[b]);
+  if (rated_[place] == nodes)
+    return select(edge, candidate.key - balance);
+  const double gain = gainOf(edge);
+  if (queue_.postpone(bucket, edge, gain + balance))
     return;
-  const double key = gainOf(edge) + balance;
-  if (postpone(bucket, number, key))
-    return;
-  heap_.push_back({key, number, static_cast<std::uint32_t>(selected_.size())});
-  std::push_heap(heap_.begin(), heap_.end(), Later());
+  const Candidate again(gain + balance, edge.number, place);
+  if (order_.isBest(again))
+    return select(edge, gain);
+  rated_[place] = nodes;
+  order_.putBack(again);
+}
+
+/** Fill the batch with those of the next edges that still join two groups.
+ * \param[in] first where to begin
+ * \return where to go on */
+std::size_t
+ForestGreedy::gather(const std::vector<QueuedEdge>& edges, std::size_t first)
+{
+  const std::size_t last = std::min(edges.size(), first + EdgeBatch::kMost);
+  const double per_unit = 1.0 / unit_;
+  batch_.count = 0;
+  for (std::size_t k = first; k < last; ++k) {
+    prefetch(edges, k);
+    const Node& a = nodes_[edges_.source(edges[k].number)];
+    const Node& b = nodes_[edges[k].target];
+    if (a.group == b.group)
+      continue;
+    const std::uint32_t size_a = sizes_[a.group];
+    const std::uint32_t size_b = sizes_[b.group];
+    const std::size_t place = batch_.count++;
+    batch_.place[place] = static_cast<std::uint32_t>(k);
+    batch_.weight[place] = static_cast<float>(per_unit * edges[k].weight);
+    batch_.loop_a[place] = static_cast<float>(per_unit * a.loop);
+    batch_.loop_b[place] = static_cast<float>(per_unit * b.loop);
+    batch_.nodes[place] = size_a + size_b;
+    batch_.balance[place] = balance_(size_a, size_b);
+  }
+  return last;
+}
+
+/** Have the nodes of edges that follow sent to the cache, then the sizes of their
+ * groups: edges in order of their keys are anywhere. */
+inline void
+ForestGreedy::prefetch(const std::vector<QueuedEdge>& edges, std::size_t k) const
+{
+  if (k + kFar < edges.size()) {
+    const QueuedEdge& edge = edges[k + kFar];
+    __builtin_prefetch(&nodes_[edges_.source(edge.number)]);
+    __builtin_prefetch(&nodes_[edge.target]);
+  }
+  if (k + kSoon < edges.size()) {
+    const QueuedEdge& edge = edges[k + kSoon];
+    __builtin_prefetch(&sizes_[groupOf(edges_.source(edge.number))]);
+    __builtin_prefetch(&sizes_[groupOf(edge.target)]);
+  }
+}
+
+/** Hardly more than the key of an edge of the batch, and no less. */
+inline double
+ForestGreedy::boundOf(std::size_t k) const
+{
+  return unit_ * static_cast<double>(batch_.gain[k]) + batch_.balance[k];
+}
+
+double
+ForestGreedy::gainOf(const QueuedEdge& edge) const
+{
+  return scaledEdgeGain(loopOf(nodes_[edges_.source(edge.number)].loop),
+                        loopOf(nodes_[edge.target].loop),
+                        edge.weight);
 }
 
 void
-ForestGreedy::select(std::uint32_t number)
+ForestGreedy::select(const QueuedEdge& edge, double gain)
 {
-  const WeightedEdge edge = edges_[number];
-  const std::uint32_t a = groupOf(edge.a);
-  const std::uint32_t b = groupOf(edge.b);
-  SelfLoop& loop_a = nodes_[edge.a].loop;
-  SelfLoop& loop_b = nodes_[edge.b].loop;
-  const double before = loop_a.term + loop_b.term;
-  loop_a.shorten(edge.weight);
-  loop_b.shorten(edge.weight);
-  scaled_rate_ += before - loop_a.term - loop_b.term - 2.0 * xLogX(edge.weight);
-  selected_.push_back(number);
+  Node& end_a = nodes_[edges_.source(edge.number)];
+  Node& end_b = nodes_[edge.target];
+  const std::uint32_t a = end_a.group;
+  const std::uint32_t b = end_b.group;
+  const double weight = edge.weight;
+  end_a.loop = std::max(end_a.loop - weight, 0.0); // rounding may leave less than 0
+  end_b.loop = std::max(end_b.loop - weight, 0.0);
+  scaled_rate_ += gain;
+  selected_.push_back(edge.number);
   --groups_left_;
-  if (nodes_[a].size < nodes_[b].size)
+  if (sizes_[a] < sizes_[b])
     join(b, a);
   else
     join(a, b);
@@ -291,8 +279,7 @@ ForestGreedy::select(std::uint32_t number)
 void
 ForestGreedy::join(std::uint32_t large, std::uint32_t small)
 {
-  nodes_[large].size += nodes_[small].size;
-  nodes_[large].changed = static_cast<std::uint32_t>(selected_.size());
+  sizes_[large] += sizes_[small];
   std::uint32_t node = small;
   do {
     nodes_[node].group = large;

@@ -3,9 +3,11 @@
 
 #pragma once
 
-#include "bucket_lists.h"
+#include "candidate_order.h"
+#include "edge_batch.h"
 #include "edge_view.h"
-#include "fast_x_log_x.h"
+#include "group_balance.h"
+#include "key_buckets.h"
 
 #include <pcl/segmentation/random_walk.h>
 
@@ -19,12 +21,12 @@ namespace nurbs {
 /** Greedy selection of entropyRateSuperpixels(). An edge's key is its gain times the
  * total weight, less what a first edge gains in balance:
  *
- * key = 2W gain(H) + scale [f(m) + f(n) - f(m + n) + f(2)],  f(x) = x log x,
+ * key = 2W gain(H) + GroupBalance(m, n)
  *
- * for groups of m and n nodes of M. Keys only fall, so the queue is a monotone one:
+ * for groups of m and n nodes. Keys only fall, so the queue is a monotone one:
  * edges wait in buckets of their last known keys, and only the bucket whose turn it is
  * has exact keys and an order. Where an edge waits it needs no more than an upper bound
- * of its key, which FastXLogX gives. */
+ * of its key, which EdgeBatch gives. */
 class ForestGreedy {
 public:
   /** \param[in] edges valid graph
@@ -71,41 +73,12 @@ public:
   }
 
 private:
-  /** All that is known of a node, in half a cache line. */
-  struct alignas(32) Node {
-    SelfLoop loop;
-    std::uint32_t group = 0;   // the node that names its group and keeps its
-    std::uint32_t size = 1;    // size and the
-    std::uint32_t changed = 0; // number of edges selected when it last grew
-    std::uint32_t next = 0;    // in the ring of the group's nodes
+  /** What looks at edges need of their ends. */
+  struct Node {
+    double loop = 0.0;       // weight of the step to itself
+    std::uint32_t group = 0; // the node that names its group
+    std::uint32_t next = 0;  // in the ring of the group's nodes
   };
-
-  struct Candidate {
-    double key;
-    std::uint32_t edge;
-    std::uint32_t rated; // number of edges selected when the key was found
-  };
-
-  /** Whether a is taken after b. */
-  struct Later {
-    bool
-    operator()(const Candidate& a, const Candidate& b) const
-    {
-      return a.key != b.key ? a.key < b.key : a.edge > b.edge;
-    }
-  };
-
-  double
-  balanceOf(const Node& group_a, const Node& group_b) const;
-
-  double
-  gainOf(const WeightedEdge& edge) const;
-
-  double
-  gainBound(const WeightedEdge& edge) const;
-
-  double
-  sizeTerm(std::uint32_t size) const;
 
   double
   startLoops();
@@ -114,37 +87,40 @@ private:
   enqueueAll(const std::vector<bool>& member);
 
   void
-  setRange(double low, double high);
+  enqueueFirst(const std::vector<QueuedEdge>& edges);
 
   void
-  enqueue(std::uint32_t edge, double key);
-
-  bool
-  postpone(std::size_t bucket, std::uint32_t edge, double key);
+  enqueueAgain(std::vector<QueuedEdge>& edges);
 
   void
-  enqueueWaiting();
-
-  std::size_t
-  bucketOf(double key) const;
+  openBuckets();
 
   void
   openBucket(std::size_t bucket);
 
   void
-  considerOpened(std::size_t bucket);
+  orderOpened(std::size_t bucket);
 
   void
-  consider(std::size_t bucket, std::uint32_t edge);
+  consider(std::size_t bucket, const Candidate& candidate);
+
+  std::size_t
+  gather(const std::vector<QueuedEdge>& edges, std::size_t first);
 
   void
-  select(std::uint32_t edge);
+  prefetch(const std::vector<QueuedEdge>& edges, std::size_t k) const;
+
+  double
+  boundOf(std::size_t k) const;
+
+  double
+  gainOf(const QueuedEdge& edge) const;
+
+  void
+  select(const QueuedEdge& edge, double gain);
 
   void
   join(std::uint32_t large, std::uint32_t small);
-
-  void
-  openBuckets();
 
   bool
   done() const
@@ -153,22 +129,21 @@ private:
   }
 
   EdgeView edges_;
-  FastXLogX fast_x_log_x_;
   std::size_t members_ = 0;
   std::size_t groups_left_ = 0;
   std::size_t groups_wanted_ = 1;
   std::vector<Node> nodes_;
+  std::vector<std::uint32_t> sizes_; // of groups, at the nodes that name them
+  double unit_ = 1.0;                // largest weight of a loop at first
   double total_weight_ = 0.0;
   double scaled_rate_ = 0.0;
   double first_gain_ = 0.0;
-  std::vector<double> size_terms_;
-  double scale_ = 0.0;
-  std::vector<std::uint32_t> waiting_; // edges whose keys are below all buckets
-  double highest_ = 0.0;
-  double buckets_per_key_ = 0.0;
-  BucketLists lists_;
-  std::vector<std::uint32_t> opened_;
-  std::vector<Candidate> heap_;
+  GroupBalance balance_;
+  KeyBuckets queue_;
+  EdgeBatch batch_{};
+  std::vector<QueuedEdge> opened_;   // edges of the open bucket, and for each the
+  std::vector<std::uint32_t> rated_; // sizes of both groups as of its exact key
+  CandidateOrder order_;
   std::vector<std::uint32_t> selected_;
 };
 
