@@ -134,45 +134,69 @@ measureShare(const GridPoints& points,
   return std::clamp(kToSigma * *where / of_three, kLeastDirectionNoise, kMostShare);
 }
 
+void
+requireSame(const GridPoints& points, const GridGraph& graph)
+{
+  if (graph.numCells() != points.size())
+    throw std::invalid_argument("direction noise: the graph is not of these points");
+}
+
+/** Steady change along the lines, or the mean of that to the neighbours. */
+float
+slopeAlong(const DepthLines& lines, std::size_t cell)
+{
+  const std::optional<float> steady = lines.steadySlope(cell);
+  const float slope = steady ? *steady : lines.slope(cell);
+  return std::isfinite(slope) ? slope : 0.0F;
+}
+
 } // namespace
+
+DepthSlopes
+measureDepthSlopes(const GridPoints& points, const GridGraph& graph, int threads)
+{
+  requireSame(points, graph);
+  const DepthLines rows(points, graph, GridGraph::kRight);
+  const DepthLines columns(points, graph, GridGraph::kDown);
+  DepthSlopes slopes;
+  slopes.fill(std::vector<float>(points.size(), 0.0F));
+#pragma omp parallel for num_threads(threads)
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points.valid(i)) {
+      slopes[0][i] = slopeAlong(rows, i);
+      slopes[1][i] = slopeAlong(columns, i);
+    }
+  return slopes;
+}
 
 DirectionNoise
 measureDirectionNoise(const GridPoints& points,
                       const GridGraph& graph,
-                      const SensorNoise& noise)
+                      const SensorNoise& noise,
+                      int threads)
 {
-  if (graph.numCells() != points.size())
-    throw std::invalid_argument("measureDirectionNoise: the graph is not of these "
-                                "points");
+  requireSame(points, graph);
   const DepthLines rows(points, graph, GridGraph::kRight);
   const DepthLines columns(points, graph, GridGraph::kDown);
-  return {measureShare(points, rows, columns, noise),
-          measureShare(points, columns, rows, noise)};
+  DirectionNoise result;
+#pragma omp parallel sections num_threads(threads)
+  {
+#pragma omp section
+    result.along_rows = measureShare(points, rows, columns, noise);
+#pragma omp section
+    result.along_columns = measureShare(points, columns, rows, noise);
+  }
+  return result;
 }
 
 std::vector<float>
-depthNoiseOfDirections(const GridPoints& points,
-                       const GridGraph& graph,
-                       const DirectionNoise& noise,
-                       int threads)
+depthNoiseOfDirections(const DepthSlopes& slopes, const DirectionNoise& noise)
 {
-  if (graph.numCells() != points.size())
-    throw std::invalid_argument("depthNoiseOfDirections: the graph is not of these "
-                                "points");
-  const DepthLines rows(points, graph, GridGraph::kRight);
-  const DepthLines columns(points, graph, GridGraph::kDown);
-  std::vector<float> sigmas(points.size(), 0.0F);
-#pragma omp parallel for num_threads(threads)
-  for (std::size_t i = 0; i < sigmas.size(); ++i) {
-    if (!points.valid(i))
-      continue;
-    const auto part = [i](const DepthLines& lines, double share) {
-      const float slope = lines.steadySlope(i).value_or(lines.slope(i));
-      return std::isfinite(slope) ? static_cast<float>(share) * slope : 0.0F;
-    };
-    sigmas[i] =
-        std::max(part(rows, noise.along_rows), part(columns, noise.along_columns));
-  }
+  const auto rows = static_cast<float>(noise.along_rows);
+  const auto columns = static_cast<float>(noise.along_columns);
+  std::vector<float> sigmas(slopes[0].size());
+  for (std::size_t i = 0; i < sigmas.size(); ++i)
+    sigmas[i] = std::max(rows * slopes[0][i], columns * slopes[1][i]);
   return sigmas;
 }
 

@@ -6,6 +6,7 @@
 #include <pcl/segmentation/grid_graph.h>
 #include <pcl/segmentation/sensor_noise.h>
 
+#include <array>
 #include <vector>
 
 namespace pcl {
@@ -21,23 +22,28 @@ struct DirectionNoise {
   double along_columns = kLeastDirectionNoise;
 };
 
-/** Measure it in the cloud: where the depth changes by much from cell to cell, points
- * leave the line of their neighbours by a share of this change. The least where nothing
- * steep is seen. O(cells), of which a sample is looked at.
+/** Change of each cell's depth per cell along rows and along columns; 0 where there is
+ * no neighbour. */
+using DepthSlopes = std::array<std::vector<float>, 2>;
+
+/** O(cells).
+ * \throws std::invalid_argument when the graph belongs to other points */
+DepthSlopes
+measureDepthSlopes(const GridPoints& points, const GridGraph& graph, int threads);
+
+/** Measure the noise in the cloud: where the depth changes by much from cell to cell,
+ * points leave the line of their neighbours by a share of this change. The least where
+ * nothing steep is seen. O(cells), of which a sample is looked at.
  * \throws std::invalid_argument when the graph belongs to other points */
 DirectionNoise
 measureDirectionNoise(const GridPoints& points,
                       const GridGraph& graph,
-                      const SensorNoise& noise);
+                      const SensorNoise& noise,
+                      int threads);
 
-/** Standard deviation of each cell's depth that errors of the direction cause; 0 where
- * there is no neighbour.
- * \throws std::invalid_argument when the graph belongs to other points */
+/** Standard deviation of each cell's depth that errors of the direction cause. */
 std::vector<float>
-depthNoiseOfDirections(const GridPoints& points,
-                       const GridGraph& graph,
-                       const DirectionNoise& noise,
-                       int threads);
+depthNoiseOfDirections(const DepthSlopes& slopes, const DirectionNoise& noise);
 
 } // namespace nurbs
 } // namespace pcl

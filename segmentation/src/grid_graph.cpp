@@ -38,10 +38,12 @@ nextPoint(const GridPoints& points, int column, int row, GridStep step)
 int
 cellsBetween(const GridGeometry& grid, GridStep step, std::size_t from, std::size_t to)
 {
-  const auto width = static_cast<std::size_t>(grid.width);
+  const auto row_of = [&](std::size_t cell) {
+    return static_cast<int>(cell) / grid.width;
+  };
   if (step.rows != 0)
-    return static_cast<int>(to / width - from / width);
-  const int columns = static_cast<int>(to % width) - static_cast<int>(from % width);
+    return row_of(to) - row_of(from);
+  const int columns = static_cast<int>(to) - static_cast<int>(from); // of one row
   return columns > 0 ? columns : columns + grid.width;
 }
 
@@ -139,6 +141,14 @@ GridGraph::expectDistances(const GridPoints& points,
     line.variance[i] =
         kLeast + std::max(beside, facing) + noise_variance[i] + noise_variance[j];
   }
+}
+
+void
+GridGraph::setDistanceWeights(int threads)
+{
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (int d = 0; d < directions_; ++d)
+    setLineWeights(DistanceWeight(), d);
 }
 
 std::size_t

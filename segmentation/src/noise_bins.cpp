@@ -104,7 +104,9 @@ private:
   double
   difference(double from, double to) const
   {
-    return points_.geometry.wrap ? std::remainder(to - from, 2.0 * M_PI) : to - from;
+    const double step = to - from;
+    const bool over_seam = points_.geometry.wrap && std::abs(step) > M_PI;
+    return over_seam ? std::remainder(step, 2.0 * M_PI) : step;
   }
 
   /** Depth deviation of the middle of three samples from their common line; \a share is

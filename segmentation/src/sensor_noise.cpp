@@ -96,9 +96,10 @@ sigmaOf(NoiseBin& bin, const Share& share, double excess)
   return std::hypot(spread, quantile(bin.steps, 0.5) / std::sqrt(12.0));
 }
 
-/** Weighted line sigma = a + b depth^2 through the bins, neither term negative. */
-SensorNoise
-fitBins(std::vector<NoiseBin>& bins, const Share& share, double fallback)
+/** Weighted line sigma = a + b depth^2 through the bins, neither term negative; nothing
+ * when no bin has enough samples. */
+std::optional<SensorNoise>
+fitBins(std::vector<NoiseBin>& bins, const Share& share)
 {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
@@ -117,15 +118,15 @@ fitBins(std::vector<NoiseBin>& bins, const Share& share, double fallback)
     right += weight * sigma * row;
   }
   if (normal(0, 0) == 0.0)
-    return {fallback, 0.0, 0.0};
+    return std::nullopt;
   if (bins.size() == 1)
-    return {right(0) / normal(0, 0), 0.0, 0.0};
+    return SensorNoise{right(0) / normal(0, 0), 0.0, 0.0};
   const Eigen::Vector2d both = normal.fullPivLu().solve(right);
   if (both.y() < 0.0 || !both.allFinite())
-    return {right(0) / normal(0, 0), 0.0, 0.0};
+    return SensorNoise{right(0) / normal(0, 0), 0.0, 0.0};
   if (both.x() < 0.0)
-    return {0.0, right(1) / normal(1, 1), 0.0};
-  return {both.x(), both.y(), 0.0};
+    return SensorNoise{0.0, right(1) / normal(1, 1), 0.0};
+  return SensorNoise{both.x(), both.y(), 0.0};
 }
 
 } // namespace
@@ -150,11 +151,13 @@ SensorNoise::estimate(const GridPoints& points, int threads)
   std::vector<float> depths = validDepths(points);
   if (depths.empty())
     return {};
-  const double typical = std::abs(quantile(depths, 0.5));
   const auto [nearest, farthest] = std::minmax_element(depths.begin(), depths.end());
   std::vector<NoiseBin> bins = nurbs::sampleNoise(points, *nearest, *farthest, threads);
   const bool scattered = points.geometry.max_gap > 1 && points.geometry.row_v.empty();
-  return fitBins(bins, scattered ? kQuarter : kHalf, 0.001 * typical);
+  const std::optional<SensorNoise> fitted = fitBins(bins, scattered ? kQuarter : kHalf);
+  if (fitted)
+    return *fitted;
+  return {0.001 * std::abs(quantile(depths, 0.5)), 0.0, 0.0};
 }
 
 } // namespace pcl

@@ -19,6 +19,16 @@ constexpr double kMostSigmas = 6.0;
 /** Cells that are worth a second thread. */
 constexpr std::size_t kMany = 1024;
 
+std::vector<std::size_t>
+cellsOf(const std::vector<std::uint8_t>& flags)
+{
+  std::vector<std::size_t> cells;
+  for (std::size_t cell = 0; cell < flags.size(); ++cell)
+    if (flags[cell] != 0)
+      cells.push_back(cell);
+  return cells;
+}
+
 } // namespace
 
 CellFacets::CellFacets(const JoiningInput& input, const KeptEdges& edges)
@@ -58,37 +68,44 @@ CellFacets::bestNeighbour(std::size_t cell, double sigmas) const
   return best;
 }
 
-void
-CellFacets::grow(double sigmas)
+std::vector<std::size_t>
+CellFacets::besideFacets() const
 {
-  std::vector<std::size_t> front;
-  std::vector<std::uint8_t> waiting(facet_.size(), 0);
-  const auto offer = [&](std::size_t cell, std::vector<std::size_t>& list) {
-    if (facet_[cell] != kNone || waiting[cell] != 0)
-      return;
-    waiting[cell] = 1;
-    list.push_back(cell);
-  };
+  std::vector<std::uint8_t> beside(facet_.size(), 0);
+#pragma omp parallel for num_threads(input_.options.threads)
   for (std::size_t cell = 0; cell < facet_.size(); ++cell)
     if (facet_[cell] == kNone)
       edges_.forEachNeighbour(cell, [&](std::size_t next) {
         if (facet_[next] != kNone)
-          offer(cell, front);
+          beside[cell] = 1;
       });
+  return cellsOf(beside);
+}
+
+void
+CellFacets::grow(double sigmas)
+{
+  std::vector<std::uint8_t> waiting(facet_.size(), 0);
+  std::vector<std::size_t> front = besideFacets();
   while (!front.empty()) {
     // A ring at a time, so that no facet is ahead of the others.
     std::vector<std::uint32_t> chosen(front.size());
 #pragma omp parallel for num_threads(input_.options.threads) if (front.size() > kMany)
     for (std::size_t k = 0; k < front.size(); ++k)
       chosen[k] = bestNeighbour(front[k], sigmas);
-    std::vector<std::size_t> next;
-    for (std::size_t k = 0; k < front.size(); ++k) {
+    for (std::size_t k = 0; k < front.size(); ++k)
       facet_[front[k]] = chosen[k];
-      waiting[front[k]] = 0;
-    }
+    std::vector<std::size_t> next;
     for (std::size_t k = 0; k < front.size(); ++k)
       if (chosen[k] != kNone)
-        edges_.forEachNeighbour(front[k], [&](std::size_t cell) { offer(cell, next); });
+        edges_.forEachNeighbour(front[k], [&](std::size_t cell) {
+          if (facet_[cell] != kNone || waiting[cell] != 0)
+            return;
+          waiting[cell] = 1;
+          next.push_back(cell);
+        });
+    for (const std::size_t cell : next)
+      waiting[cell] = 0;
     front.swap(next);
   }
 }
@@ -156,11 +173,7 @@ CellFacets::atBorders() const
       if (facet_[next] != kNone && facet_[next] != facet_[cell])
         border[cell] = border[next] = 1;
     }
-  std::vector<std::size_t> cells;
-  for (std::size_t cell = 0; cell < border.size(); ++cell)
-    if (border[cell] != 0)
-      cells.push_back(cell);
-  return cells;
+  return cellsOf(border);
 }
 
 std::uint32_t
@@ -192,22 +205,35 @@ CellFacets::refine()
 {
   std::vector<std::size_t> front = atBorders();
   std::vector<std::uint8_t> waiting(facet_.size(), 0);
+  std::vector<std::uint8_t> changed(facet_.size(), 0); // a neighbour, in this sweep
   for (int sweep = 0; sweep < kSweeps && !front.empty(); ++sweep) {
+    // Most cells stay as they are: what threads find for all of them is right but where
+    // a cell before has changed.
+    std::vector<std::uint32_t> best(front.size());
+#pragma omp parallel for num_threads(input_.options.threads) if (front.size() > kMany)
+    for (std::size_t k = 0; k < front.size(); ++k)
+      best[k] = cheapest(front[k]);
     std::vector<std::size_t> next;
-    for (const std::size_t cell : front) {
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      const std::size_t cell = front[k];
       waiting[cell] = 0;
-      const std::uint32_t best = cheapest(cell);
-      if (best == facet_[cell])
+      if (changed[cell] != 0)
+        best[k] = cheapest(cell);
+      changed[cell] = 0;
+      if (best[k] == facet_[cell])
         continue;
-      facet_[cell] = best;
+      facet_[cell] = best[k];
       edges_.forEachNeighbour(cell, [&](std::size_t other) {
+        changed[other] = 1;
         if (waiting[other] == 0 && facet_[other] != kNone) {
           waiting[other] = 1;
           next.push_back(other);
         }
       });
     }
+    std::fill(changed.begin(), changed.end(), std::uint8_t{0});
     std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
     front.swap(next);
   }
 }

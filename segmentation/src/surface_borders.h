@@ -72,6 +72,10 @@ private:
   std::uint32_t
   bestNeighbour(std::size_t cell, double sigmas) const;
 
+  /** Cells without a facet that have a neighbour with one. */
+  std::vector<std::size_t>
+  besideFacets() const;
+
   std::vector<std::size_t>
   atBorders() const;
 

@@ -53,7 +53,8 @@ ViewChart::ViewChart(const GridPoints& points,
       spherical_(points.geometry.projection == GridProjection::spherical),
       frame_(points.geometry.frame),
       choices_(spherical_ ? std::vector<int>{3, 9} : std::vector<int>{3, 6, 10}),
-      direction_noise_(depthNoiseOfDirections(points, graph, {}, threads))
+      slopes_(measureDepthSlopes(points, graph, threads)),
+      direction_noise_(depthNoiseOfDirections(slopes_, {}))
 {
   const GridSpacing spacing(points.geometry, GridGraph::kRight);
   const bool lattice = points.geometry.projection == GridProjection::lattice;
@@ -89,7 +90,8 @@ ViewChart::measureDirections(const GridGraph& graph, int threads)
   const DirectionNoise measured = measureDirectionNoise(
       points_,
       graph,
-      {scaled(noise_.constant), scaled(noise_.quadratic), noise_.reference});
+      {scaled(noise_.constant), scaled(noise_.quadratic), noise_.reference},
+      threads);
   const auto share = [this](double value) {
     return std::max(kLeastDirectionNoise, value / noise_scale_);
   };
@@ -97,7 +99,7 @@ ViewChart::measureDirections(const GridGraph& graph, int threads)
                                share(measured.along_columns)};
   if (std::max(granted.along_rows, granted.along_columns) <= kLeastDirectionNoise)
     return;
-  direction_noise_ = depthNoiseOfDirections(points_, graph, granted, threads);
+  direction_noise_ = depthNoiseOfDirections(slopes_, granted);
   updateSigmas(threads);
 }
 

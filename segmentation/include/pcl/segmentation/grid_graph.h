@@ -77,6 +77,10 @@ public:
   void
   setWeights(const Weight& weight = {});
 
+  /** \brief setWeights() with DistanceWeight, by so many threads. */
+  void
+  setDistanceWeights(int threads);
+
   /** \brief Number of directions: 2 or 4. */
   int
   numDirections() const
@@ -158,6 +162,10 @@ private:
                   float cap,
                   int direction);
 
+  template <typename Weight>
+  void
+  setLineWeights(const Weight& weight, int direction);
+
   int directions_ = 0;
   std::size_t cells_ = 0;
   std::array<Lines, 4> lines_;
@@ -167,15 +175,21 @@ template <typename Weight>
 void
 GridGraph::setWeights(const Weight& weight)
 {
-  for (int d = 0; d < directions_; ++d) {
-    Lines& line = lines_[static_cast<std::size_t>(d)];
-    for (std::size_t i = 0; i < cells_; ++i)
-      if (line.target[i] != kNone)
-        line.weight[i] = weight(i,
-                                static_cast<std::size_t>(line.target[i]),
-                                line.squared_distance[i],
-                                line.variance[i]);
-  }
+  for (int d = 0; d < directions_; ++d)
+    setLineWeights(weight, d);
+}
+
+template <typename Weight>
+void
+GridGraph::setLineWeights(const Weight& weight, int direction)
+{
+  Lines& line = lines_[static_cast<std::size_t>(direction)];
+  for (std::size_t i = 0; i < cells_; ++i)
+    if (line.target[i] != kNone)
+      line.weight[i] = weight(i,
+                              static_cast<std::size_t>(line.target[i]),
+                              line.squared_distance[i],
+                              line.variance[i]);
 }
 
 } // namespace nurbs

@@ -151,8 +151,9 @@ private:
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(); // of a height field
   double scale_ = 1.0;
   std::vector<int> choices_;
-  std::vector<float> direction_noise_; // of the depth, per cell
-  std::vector<float> sigmas_;          // of the value, per cell, without noise_scale_
+  std::array<std::vector<float>, 2> slopes_; // of the depth along rows and columns
+  std::vector<float> direction_noise_;       // of the depth, per cell
+  std::vector<float> sigmas_; // of the value, per cell, without noise_scale_
 };
 
 /** \brief Sums over points from which the best polynomials follow: normal equations.

@@ -28,7 +28,7 @@ GridSegmentation<PointT>::segment(std::vector<PointIndices>& segments)
     used_noise_ =
         noise_ ? *noise_ : SensorNoise::estimate(points, graph_options_.threads);
     graph_.build(points, used_noise_, graph_options_);
-    graph_.setWeights();
+    graph_.setDistanceWeights(graph_options_.threads);
     count_ = performSegmentation(points, graph_, used_noise_, labels_);
   } catch (const std::invalid_argument& error) {
     PCL_ERROR("[pcl::GridSegmentation::segment] %s\n", error.what());
