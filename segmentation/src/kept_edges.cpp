@@ -123,34 +123,45 @@ KeptEdges::KeptEdges(const GridPoints& points,
                      const SensorNoise& noise,
                      const ConnectedGroupsOptions& options,
                      const std::vector<float>& direction_noise)
-    : graph_(graph)
+    : graph_(graph), begin_(graph.numCells(), 0), end_(graph.numCells(), 0)
 {
-  std::vector<float> inverse_depth;
-  if (isInverseDepthGrid(points.geometry)) {
-    inverse_depth.reserve(points.size());
-    for (const float depth : points.depth)
-      inverse_depth.push_back(1.0F / depth);
-  }
-  std::vector<float> depth_noise;
-  depth_noise.reserve(points.size());
-  for (const float depth : points.depth)
-    depth_noise.push_back(static_cast<float>(noise.sigma(depth)));
-#pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
+  const std::size_t cells = graph.numCells();
+  std::vector<float> inverse_depth(isInverseDepthGrid(points.geometry) ? cells : 0);
+  std::vector<float> depth_noise(cells);
+  std::vector<JumpTest> jumps;
   for (int d = 0; d < graph.numDirections(); ++d) {
-    std::vector<std::uint8_t>& kept = kept_[static_cast<std::size_t>(d)];
-    kept.assign(graph.numCells(), 0);
-    const JumpTest jumps(points,
-                         inverse_depth,
-                         depth_noise,
-                         direction_noise,
-                         graph,
-                         options.jump_sigmas,
-                         d);
-    const std::vector<std::int32_t>& target = graph.target(d);
-    const std::vector<float>& weight = graph.weight(d);
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      if (target[i] != GridGraph::kNone && weight[i] >= options.min_weight)
-        kept[i] = jumps(i) ? 0 : 1;
+    lines_.push_back(
+        {graph.target(d).data(), graph.source(d).data(), graph.weight(d).data()});
+    jumps.emplace_back(points,
+                       inverse_depth,
+                       depth_noise,
+                       direction_noise,
+                       graph,
+                       options.jump_sigmas,
+                       d);
+  }
+#pragma omp parallel num_threads(options.threads)
+  {
+#pragma omp for
+    for (std::size_t i = 0; i < cells; ++i) {
+      depth_noise[i] = static_cast<float>(noise.sigma(points.depth[i]));
+      if (!inverse_depth.empty())
+        inverse_depth[i] = 1.0F / points.depth[i];
+    }
+#pragma omp for
+    for (std::size_t i = 0; i < cells; ++i)
+      for (std::size_t d = 0; d < lines_.size(); ++d)
+        if (lines_[d].target[i] != GridGraph::kNone &&
+            lines_[d].weight[i] >= options.min_weight && !jumps[d](i))
+          begin_[i] = static_cast<std::uint8_t>(begin_[i] | 1U << d);
+#pragma omp for
+    for (std::size_t i = 0; i < cells; ++i)
+      for (std::size_t d = 0; d < lines_.size(); ++d) {
+        const std::int32_t source = lines_[d].source[i];
+        if (source != GridGraph::kNone &&
+            keeps(static_cast<int>(d), static_cast<std::size_t>(source)))
+          end_[i] = static_cast<std::uint8_t>(end_[i] | 1U << d);
+      }
   }
 }
 

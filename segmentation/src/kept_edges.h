@@ -5,14 +5,14 @@
 
 #include <pcl/segmentation/connected_groups.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace pcl {
 namespace nurbs {
 
-/** Edges of a graph that survive, one flag per direction and cell. */
+/** Edges of a graph that survive: for each cell the directions of those that begin there
+ * and of those that end there, as bits. The graph must outlive this. */
 class KeptEdges {
 public:
   /** Keep what is neither of low weight nor over a depth jump.
@@ -33,7 +33,7 @@ public:
   bool
   keeps(int direction, std::size_t cell) const
   {
-    return kept_[static_cast<std::size_t>(direction)][cell] != 0;
+    return isSet(begin_[cell], direction);
   }
 
   /** Whether an edge that begins at this cell was removed. */
@@ -51,14 +51,16 @@ public:
   void
   forEachEdge(std::size_t cell, const Visit& visit) const
   {
-    for (int d = 0; d < graph_.numDirections(); ++d) {
-      if (keeps(d, cell))
-        visit(static_cast<std::size_t>(graph_.target(d)[cell]), graph_.weight(d)[cell]);
-      const std::int32_t source = graph_.source(d)[cell];
-      if (source == GridGraph::kNone || !keeps(d, static_cast<std::size_t>(source)))
-        continue;
-      const auto from = static_cast<std::size_t>(source);
-      visit(from, graph_.weight(d)[from]);
+    const unsigned int begin = begin_[cell];
+    const unsigned int end = end_[cell];
+    for (int d = 0; (begin | end) >> static_cast<unsigned int>(d) != 0; ++d) {
+      const Lines& lines = lines_[static_cast<std::size_t>(d)];
+      if (isSet(begin, d))
+        visit(static_cast<std::size_t>(lines.target[cell]), lines.weight[cell]);
+      if (isSet(end, d)) {
+        const auto from = static_cast<std::size_t>(lines.source[cell]);
+        visit(from, lines.weight[from]);
+      }
     }
   }
 
@@ -103,8 +105,23 @@ public:
   }
 
 private:
+  /** Of the graph, in one direction. */
+  struct Lines {
+    const std::int32_t* target;
+    const std::int32_t* source;
+    const float* weight;
+  };
+
+  static bool
+  isSet(unsigned int bits, int direction)
+  {
+    return (bits >> static_cast<unsigned int>(direction) & 1U) != 0;
+  }
+
   const GridGraph& graph_;
-  std::array<std::vector<std::uint8_t>, 4> kept_;
+  std::vector<Lines> lines_;
+  std::vector<std::uint8_t> begin_; // bit d: the edge in direction d from this cell
+  std::vector<std::uint8_t> end_;   // bit d: the edge in direction d to this cell
 };
 
 } // namespace nurbs

@@ -4,6 +4,7 @@
 #include "surface_borders.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace pcl {
@@ -16,6 +17,7 @@ constexpr int kSweeps = 16;
 constexpr double kNeighbourCost = 1.0;
 /** Residuals beyond this many standard deviations say no more than this. */
 constexpr double kMostSigmas = 6.0;
+constexpr std::size_t kMostNeighbours = 8;
 /** Cells that are worth a second thread. */
 constexpr std::size_t kMany = 1024;
 
@@ -164,39 +166,38 @@ std::vector<std::size_t>
 CellFacets::atBorders() const
 {
   std::vector<std::uint8_t> border(facet_.size(), 0);
-  const GridGraph& graph = edges_.graph();
-  for (int d = 0; d < graph.numDirections(); ++d)
-    for (std::size_t cell = 0; cell < facet_.size(); ++cell) {
-      if (facet_[cell] == kNone || !edges_.keeps(d, cell))
-        continue;
-      const auto next = static_cast<std::size_t>(graph.target(d)[cell]);
-      if (facet_[next] != kNone && facet_[next] != facet_[cell])
-        border[cell] = border[next] = 1;
-    }
+#pragma omp parallel for num_threads(input_.options.threads)
+  for (std::size_t cell = 0; cell < facet_.size(); ++cell)
+    if (facet_[cell] != kNone)
+      edges_.forEachNeighbour(cell, [&](std::size_t next) {
+        if (facet_[next] != kNone && facet_[next] != facet_[cell])
+          border[cell] = 1;
+      });
   return cellsOf(border);
 }
 
 std::uint32_t
 CellFacets::cheapest(std::size_t cell) const
 {
+  std::array<std::uint32_t, kMostNeighbours> around;
+  std::size_t count = 0;
+  edges_.forEachNeighbour(cell, [&](std::size_t next) { around[count++] = facet_[next]; });
   std::uint32_t best = facet_[cell];
   double least = std::numeric_limits<double>::infinity();
   const ViewSample point = sample(cell);
   const auto consider = [&](std::uint32_t facet) {
     double cost = residual(point, facet);
-    edges_.forEachNeighbour(cell, [&](std::size_t other) {
-      cost += facet_[other] == facet ? 0.0 : kNeighbourCost;
-    });
+    for (std::size_t k = 0; k < count; ++k)
+      cost += around[k] == facet ? 0.0 : kNeighbourCost;
     if (cost < least) {
       least = cost;
       best = facet;
     }
   };
   consider(facet_[cell]);
-  edges_.forEachNeighbour(cell, [&](std::size_t next) {
-    if (facet_[next] != kNone && facet_[next] != facet_[cell] && facet_[next] != best)
-      consider(facet_[next]);
-  });
+  for (std::size_t k = 0; k < count; ++k)
+    if (around[k] != kNone && around[k] != facet_[cell] && around[k] != best)
+      consider(around[k]);
   return best;
 }
 
