@@ -4,7 +4,7 @@
 #include "facet_selection.h"
 
 #include <algorithm>
-#include <numeric>
+#include <vector>
 
 namespace pcl {
 namespace nurbs {
@@ -22,7 +22,8 @@ public:
         edges_(edges),
         cells_(cells),
         size_(input.facets.count(), 0),
-        members_(input.facets.count())
+        members_(input.facets.count()),
+        changed_(input.facets.count(), false)
   {
     for (const std::uint32_t facet : cells.labels())
       if (facet != CellFacets::kNone)
@@ -40,40 +41,69 @@ public:
   void
   run()
   {
-    std::vector<std::uint32_t> order(members_.size());
-    std::iota(order.begin(), order.end(), 0U);
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t facet = 0; facet < members_.size(); ++facet)
+      if (size_[facet] <= most_)
+        order.push_back(facet);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return size_[a] < size_[b];
     });
-    for (const std::uint32_t facet : order)
-      if (size_[facet] <= most_)
-        tryWithout(facet);
+    // Most facets and their surroundings remain as they are until it is their turn.
+    std::vector<Trial> trials(order.size());
+#pragma omp parallel for schedule(dynamic, 16) num_threads(input_.options.threads)
+    for (std::size_t k = 0; k < order.size(); ++k)
+      trials[k] = tryWithout(order[k]);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      if (size_[order[k]] > most_)
+        continue;
+      if (changed_[order[k]])
+        trials[k] = tryWithout(order[k]);
+      if (trials[k].pays)
+        drop(order[k], trials[k]);
+    }
   }
 
 private:
-  void
-  tryWithout(std::uint32_t facet)
+  /** What becomes of a facet's cells without it. */
+  struct Trial {
+    bool pays = false;
+    std::vector<std::uint32_t> around; // facets beside it, sorted
+    std::vector<std::uint32_t> chosen; // for each of its cells
+  };
+
+  Trial
+  tryWithout(std::uint32_t facet) const
   {
-    const std::size_t border = lookAround(facet);
-    if (around_.empty())
-      return;
+    Trial trial;
+    const std::size_t border = lookAround(facet, trial.around);
+    if (trial.around.empty())
+      return trial;
     // Half of the border goes with the facet; the rest is a border still.
     const double saved =
         input_.facets.models[facet].cost +
         input_.criterion.borderSaving(0.5 * static_cast<double>(border));
     const double allowed = input_.criterion.misfitWorth(saved);
-    std::vector<std::uint32_t> chosen;
     double misfit = 0.0;
     for (const std::size_t cell : members_[facet]) {
-      chosen.push_back(bestAround(cell, misfit));
+      trial.chosen.push_back(bestAround(trial.around, cell, misfit));
       if (misfit > allowed)
-        return;
+        return trial;
     }
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-      cells_.assign(members_[facet][k], chosen[k]);
-      if (++size_[chosen[k]] <= most_)
-        members_[chosen[k]].push_back(members_[facet][k]);
+    trial.pays = true;
+    return trial;
+  }
+
+  void
+  drop(std::uint32_t facet, const Trial& trial)
+  {
+    for (std::size_t k = 0; k < trial.chosen.size(); ++k) {
+      const std::uint32_t into = trial.chosen[k];
+      cells_.assign(members_[facet][k], into);
+      if (++size_[into] <= most_)
+        members_[into].push_back(members_[facet][k]);
     }
+    for (const std::uint32_t other : trial.around)
+      changed_[other] = true;
     size_[facet] = 0;
     members_[facet].clear();
   }
@@ -81,9 +111,8 @@ private:
   /** Finds the facets beside one.
    * \return number of cells at its border */
   std::size_t
-  lookAround(std::uint32_t facet)
+  lookAround(std::uint32_t facet, std::vector<std::uint32_t>& around) const
   {
-    around_.clear();
     std::size_t border = 0;
     for (const std::size_t cell : members_[facet]) {
       bool outer = false;
@@ -92,23 +121,25 @@ private:
         if (other == facet || other == CellFacets::kNone)
           return;
         outer = true;
-        if (around_.empty() || around_.back() != other)
-          around_.push_back(other);
+        if (around.empty() || around.back() != other)
+          around.push_back(other);
       });
       border += outer ? 1 : 0;
     }
-    std::sort(around_.begin(), around_.end());
-    around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
     return border;
   }
 
   std::uint32_t
-  bestAround(std::size_t cell, double& misfit) const
+  bestAround(const std::vector<std::uint32_t>& around,
+             std::size_t cell,
+             double& misfit) const
   {
-    std::uint32_t best = around_.front();
+    std::uint32_t best = around.front();
     const ViewSample point = cells_.sample(cell);
     double least = cells_.residual(point, best);
-    for (const std::uint32_t facet : around_) {
+    for (const std::uint32_t facet : around) {
       const double square = cells_.residual(point, facet);
       if (square < least) {
         least = square;
@@ -125,7 +156,7 @@ private:
   std::size_t most_ = 0;          // cells of a facet that may be dropped
   std::vector<std::size_t> size_; // cells of each facet
   std::vector<Cells> members_;    // of those that may be dropped
-  std::vector<std::uint32_t> around_;
+  std::vector<bool> changed_;     // since all were tried
 };
 
 } // namespace

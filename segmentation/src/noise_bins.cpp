@@ -28,17 +28,22 @@ public:
   {
   }
 
-  /** Along rows (0) or columns (1). */
+  /** One part of the lines along rows (0) or columns (1). */
   std::vector<NoiseBin>
-  run(int direction)
+  run(int direction, std::size_t part, std::size_t parts)
   {
     constexpr std::size_t kSample = 100000;
     const auto width = static_cast<std::size_t>(points_.geometry.width);
     const auto height = static_cast<std::size_t>(points_.geometry.height);
     const std::size_t stride = points_.size() / kSample + 1;
-    const std::size_t lines = direction == 0 ? height : width;
-    for (std::size_t line = 0; line < lines; line += stride)
-      direction == 0 ? walk(line * width, 1, width, 0) : walk(line, width, height, 1);
+    const std::size_t lines = (direction == 0 ? height : width) / stride + 1;
+    for (std::size_t k = part * lines / parts; k < (part + 1) * lines / parts; ++k) {
+      const std::size_t line = k * stride;
+      if (direction == 0 && line < height)
+        walk(line * width, 1, width, 0);
+      else if (direction == 1 && line < width)
+        walk(line, width, height, 1);
+    }
     return std::move(bins_);
   }
 
@@ -131,7 +136,8 @@ private:
     const float where = (depth - nearest_) * scale_;
     const float last = static_cast<float>(bins_.size()) - 1.0F;
     NoiseBin& bin = bins_[static_cast<std::size_t>(std::clamp(where, 0.0F, last))];
-    bin.depths.push_back(depth);
+    if (bins_.size() > 1)
+      bin.depths.push_back(depth);
     bin.deviations[static_cast<std::size_t>(direction)].push_back(std::abs(bend) /
                                                                   unit);
     const float change = std::abs(points_.depth[middle + 1] - depth);
@@ -155,6 +161,16 @@ append(const std::vector<float>& from, std::vector<float>& to)
   to.insert(to.end(), from.begin(), from.end());
 }
 
+void
+append(const NoiseBin& from, NoiseBin& to)
+{
+  append(from.depths, to.depths);
+  for (std::size_t direction = 0; direction < to.deviations.size(); ++direction)
+    append(from.deviations[direction], to.deviations[direction]);
+  append(from.steps, to.steps);
+  to.ties += from.ties;
+}
+
 } // namespace
 
 std::vector<NoiseBin>
@@ -163,19 +179,15 @@ sampleNoise(const GridPoints& points, float nearest, float farthest, int threads
   // A camera matches windows: its rows say all. The rings of a laser are aligned to
   // each other less well than the pulses of a ring.
   const bool camera = points.geometry.projection == GridProjection::perspective;
-  const int directions = camera ? 1 : 2;
-  std::array<std::vector<NoiseBin>, 2> found;
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
-  for (int direction = 0; direction < directions; ++direction)
-    found[static_cast<std::size_t>(direction)] =
-        NoiseSampler(points, nearest, farthest).run(direction);
-  for (std::size_t k = 0; k < found[1].size(); ++k) {
-    NoiseBin& bin = found[0][k];
-    append(found[1][k].depths, bin.depths);
-    append(found[1][k].deviations[1], bin.deviations[1]);
-    append(found[1][k].steps, bin.steps);
-    bin.ties += found[1][k].ties;
-  }
+  constexpr std::size_t kParts = 8; // of each direction
+  std::vector<std::vector<NoiseBin>> found((camera ? 1 : 2) * kParts);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t k = 0; k < found.size(); ++k)
+    found[k] = NoiseSampler(points, nearest, farthest)
+                   .run(static_cast<int>(k / kParts), k % kParts, kParts);
+  for (std::size_t k = 1; k < found.size(); ++k)
+    for (std::size_t bin = 0; bin < found[k].size(); ++bin)
+      append(found[k][bin], found[0][bin]);
   return std::move(found[0]);
 }
 

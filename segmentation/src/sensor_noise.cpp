@@ -108,7 +108,7 @@ fitBins(std::vector<NoiseBin>& bins, const Share& share)
     const std::size_t samples = bin.deviations[0].size();
     if (samples < kEnough)
       continue;
-    const double depth = quantile(bin.depths, 0.5);
+    const double depth = bin.depths.empty() ? 0.0 : quantile(bin.depths, 0.5);
     const double sigma = sigmaOf(bin, share, excess);
     const Eigen::Vector2d row(1.0, depth * depth);
     // Relative errors count, so that near bins are not drowned by far ones.

@@ -35,14 +35,14 @@ std::vector<CellBox>
 boxesOf(const JoiningInput& input)
 {
   std::vector<CellBox> boxes(input.facets.count());
-  const auto width = static_cast<std::size_t>(input.points.geometry.width);
+  const int width = input.points.geometry.width;
   const std::vector<std::uint32_t>& node = input.nodes.ofCell();
   for (std::size_t cell = 0; cell < node.size(); ++cell) {
     if (node[cell] == SurfaceNodes::kNone)
       continue;
     CellBox& box = boxes[input.facets.of_node[node[cell]]];
-    const int column = static_cast<int>(cell % width);
-    const int row = static_cast<int>(cell / width);
+    const int column = static_cast<int>(cell) % width;
+    const int row = static_cast<int>(cell) / width;
     box.left = std::min(box.left, column);
     box.right = std::max(box.right, column);
     box.top = std::min(box.top, row);

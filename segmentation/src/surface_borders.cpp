@@ -112,10 +112,12 @@ CellFacets::grow(double sigmas)
   }
 }
 
-std::vector<std::size_t>
-CellFacets::spread(std::size_t cell, std::uint32_t facet)
+void
+CellFacets::spread(std::size_t cell,
+                   std::uint32_t facet,
+                   std::vector<std::size_t>& cells)
 {
-  std::vector<std::size_t> cells(1, cell);
+  cells.assign(1, cell);
   facet_[cell] = facet;
   for (std::size_t k = 0; k < cells.size(); ++k)
     edges_.forEachNeighbour(cells[k], [&](std::size_t next) {
@@ -124,7 +126,6 @@ CellFacets::spread(std::size_t cell, std::uint32_t facet)
         cells.push_back(next);
       }
     });
-  return cells;
 }
 
 bool
@@ -148,10 +149,11 @@ std::uint32_t
 CellFacets::addLeftOver(std::uint32_t first)
 {
   std::vector<std::size_t> lines;
+  std::vector<std::size_t> cells;
   for (std::size_t cell = 0; cell < facet_.size(); ++cell) {
     if (facet_[cell] != kNone || !input_.points.valid(cell))
       continue;
-    const std::vector<std::size_t> cells = spread(cell, first);
+    spread(cell, first, cells);
     if (isLine(cells))
       lines.insert(lines.end(), cells.begin(), cells.end());
     else

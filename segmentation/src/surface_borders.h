@@ -61,9 +61,10 @@ public:
   }
 
 private:
-  /** Give a cell and the cells without a facet that hang together with it a facet. */
-  std::vector<std::size_t>
-  spread(std::size_t cell, std::uint32_t facet);
+  /** Give a cell and the cells without a facet that hang together with it a facet.
+   * \param[out] cells all of them */
+  void
+  spread(std::size_t cell, std::uint32_t facet, std::vector<std::size_t>& cells);
 
   /** Whether cells, a whole facet, are one or two cells wide. */
   bool
