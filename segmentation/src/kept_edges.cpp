@@ -17,6 +17,9 @@ namespace {
 constexpr float kOneSidedSpacings = 6.0F;
 constexpr float kTwoSidedSpacings = 1.5F;
 
+/** Cells that are looked at in one direction before it is the turn of the next. */
+constexpr std::size_t kTogether = 4096;
+
 /** Second differences of depth along the lines of one direction. */
 class JumpTest {
 public:
@@ -118,6 +121,35 @@ private:
 
 } // namespace
 
+/** Mark where kept edges begin among some cells.
+ * \param[in] jumps whether an edge is over a jump */
+template <typename Jumps>
+void
+KeptEdges::markBegins(std::size_t direction,
+                      const Jumps& jumps,
+                      float min_weight,
+                      std::size_t first,
+                      std::size_t last)
+{
+  const Lines lines = lines_[direction];
+  for (std::size_t i = first; i < last; ++i)
+    if (lines.target[i] != GridGraph::kNone && lines.weight[i] >= min_weight &&
+        !jumps(i))
+      begin_[i] = static_cast<std::uint8_t>(begin_[i] | 1U << direction);
+}
+
+/** Mark where kept edges end among some cells. */
+void
+KeptEdges::markEnds(std::size_t direction, std::size_t first, std::size_t last)
+{
+  const Lines lines = lines_[direction];
+  for (std::size_t i = first; i < last; ++i)
+    if (lines.source[i] != GridGraph::kNone &&
+        isSet(begin_[static_cast<std::size_t>(lines.source[i])],
+              static_cast<int>(direction)))
+      end_[i] = static_cast<std::uint8_t>(end_[i] | 1U << direction);
+}
+
 KeptEdges::KeptEdges(const GridPoints& points,
                      const GridGraph& graph,
                      const SensorNoise& noise,
@@ -149,19 +181,14 @@ KeptEdges::KeptEdges(const GridPoints& points,
         inverse_depth[i] = 1.0F / points.depth[i];
     }
 #pragma omp for
-    for (std::size_t i = 0; i < cells; ++i)
+    for (std::size_t first = 0; first < cells; first += kTogether)
       for (std::size_t d = 0; d < lines_.size(); ++d)
-        if (lines_[d].target[i] != GridGraph::kNone &&
-            lines_[d].weight[i] >= options.min_weight && !jumps[d](i))
-          begin_[i] = static_cast<std::uint8_t>(begin_[i] | 1U << d);
+        markBegins(
+            d, jumps[d], options.min_weight, first, std::min(cells, first + kTogether));
 #pragma omp for
-    for (std::size_t i = 0; i < cells; ++i)
-      for (std::size_t d = 0; d < lines_.size(); ++d) {
-        const std::int32_t source = lines_[d].source[i];
-        if (source != GridGraph::kNone &&
-            keeps(static_cast<int>(d), static_cast<std::size_t>(source)))
-          end_[i] = static_cast<std::uint8_t>(end_[i] | 1U << d);
-      }
+    for (std::size_t first = 0; first < cells; first += kTogether)
+      for (std::size_t d = 0; d < lines_.size(); ++d)
+        markEnds(d, first, std::min(cells, first + kTogether));
   }
 }
 

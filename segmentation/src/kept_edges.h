@@ -118,6 +118,17 @@ private:
     return (bits >> static_cast<unsigned int>(direction) & 1U) != 0;
   }
 
+  template <typename Jumps>
+  void
+  markBegins(std::size_t direction,
+             const Jumps& jumps,
+             float min_weight,
+             std::size_t first,
+             std::size_t last);
+
+  void
+  markEnds(std::size_t direction, std::size_t first, std::size_t last);
+
   const GridGraph& graph_;
   std::vector<Lines> lines_;
   std::vector<std::uint8_t> begin_; // bit d: the edge in direction d from this cell
