@@ -11,6 +11,7 @@ namespace nurbs {
 namespace {
 
 constexpr std::size_t kStripWidth = 16; // cells
+constexpr std::size_t kTogether = 64;   // facets
 
 using Cells = std::vector<std::size_t>;
 
@@ -48,19 +49,13 @@ public:
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return size_[a] < size_[b];
     });
-    // Most facets and their surroundings remain as they are until it is their turn.
-    std::vector<Trial> trials(order.size());
-#pragma omp parallel for schedule(dynamic, 16) num_threads(input_.options.threads)
-    for (std::size_t k = 0; k < order.size(); ++k)
-      trials[k] = tryWithout(order[k]);
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      if (size_[order[k]] > most_)
-        continue;
-      if (changed_[order[k]])
-        trials[k] = tryWithout(order[k]);
-      if (trials[k].pays)
-        drop(order[k], trials[k]);
-    }
+    // Facets of about the same size are seldom beside each other: what threads find for
+    // a few of them at a time mostly holds until it is their turn.
+    const std::size_t together = input_.options.threads > 1 ? kTogether : 1;
+    for (std::size_t first = 0; first < order.size(); first += together)
+      dropSome({order.begin() + static_cast<std::ptrdiff_t>(first),
+                order.begin() + static_cast<std::ptrdiff_t>(
+                                    std::min(order.size(), first + together))});
   }
 
 private:
@@ -70,6 +65,26 @@ private:
     std::vector<std::uint32_t> around; // facets beside it, sorted
     std::vector<std::uint32_t> chosen; // for each of its cells
   };
+
+  void
+  dropSome(const std::vector<std::uint32_t>& candidates)
+  {
+    std::vector<Trial> trials(candidates.size());
+    std::fill(changed_.begin(), changed_.end(), false);
+#pragma omp parallel for schedule(dynamic, 1)                                          \
+    num_threads(input_.options.threads) if (candidates.size() > 1)
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+      trials[k] = tryWithout(candidates[k]);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      const std::uint32_t facet = candidates[k];
+      if (size_[facet] > most_)
+        continue;
+      if (changed_[facet])
+        trials[k] = tryWithout(facet);
+      if (trials[k].pays)
+        drop(facet, trials[k]);
+    }
+  }
 
   Trial
   tryWithout(std::uint32_t facet) const
@@ -156,7 +171,7 @@ private:
   std::size_t most_ = 0;          // cells of a facet that may be dropped
   std::vector<std::size_t> size_; // cells of each facet
   std::vector<Cells> members_;    // of those that may be dropped
-  std::vector<bool> changed_;     // since all were tried
+  std::vector<bool> changed_;     // since some were tried
 };
 
 } // namespace

@@ -45,6 +45,9 @@ public:
   operator()(std::size_t i) const
   {
     const auto j = static_cast<std::size_t>(target_[i]);
+    const std::size_t near = depth_[j] < depth_[i] ? j : i;
+    const float tolerance = sigmas_ * noiseAt(near, directionNoise(i, j));
+    const float spacing = spacing_(depth_[near]);
     float least = std::numeric_limits<float>::infinity();
     float most = 0.0F;
     const auto look = [&](std::int32_t before, std::size_t here, std::size_t after) {
@@ -57,15 +60,8 @@ public:
     };
     look(source_[i], i, j);
     look(target_[j], j, i);
-    const std::size_t near = depth_[j] < depth_[i] ? j : i;
-    const float spacing = spacing_(depth_[near]);
-    const float one_sided = kOneSidedSpacings * spacing;
-    const float two_sided = kTwoSidedSpacings * spacing;
-    const bool both = std::isfinite(least);
-    if (!(most > one_sided) && !(both && least > two_sided))
-      return false; // whatever the noise is
-    const float tolerance = sigmas_ * noiseAt(near, directionNoise(i, j));
-    return most > one_sided + tolerance || (both && least > two_sided + tolerance);
+    return most > kOneSidedSpacings * spacing + tolerance ||
+           (std::isfinite(least) && least > kTwoSidedSpacings * spacing + tolerance);
   }
 
 private:
