@@ -20,7 +20,8 @@ constexpr float kTwoSidedSpacings = 1.5F;
 /** Cells that are looked at in one direction before it is the turn of the next. */
 constexpr std::size_t kTogether = 4096;
 
-/** Second differences of depth along the lines of one direction. */
+/** Second differences of depth along the lines of one direction. Holds mere pointers, so
+ * that a copy stays in registers while flags are written. */
 class JumpTest {
 public:
   JumpTest(const GridPoints& points,
@@ -30,12 +31,12 @@ public:
            const GridGraph& graph,
            float sigmas,
            int direction)
-      : depth_(points.depth),
-        target_(graph.target(direction)),
-        source_(graph.source(direction)),
-        inverse_depth_(inverse_depth),
-        depth_noise_(depth_noise),
-        direction_noise_(direction_noise),
+      : depth_(points.depth.data()),
+        target_(graph.target(direction).data()),
+        source_(graph.source(direction).data()),
+        inverse_depth_(inverse_depth.empty() ? nullptr : inverse_depth.data()),
+        depth_noise_(depth_noise.data()),
+        direction_noise_(direction_noise.empty() ? nullptr : direction_noise.data()),
         spacing_(points.geometry, direction),
         sigmas_(sigmas * std::sqrt(6.0F)) // deviation of a second difference
   {
@@ -76,7 +77,7 @@ private:
   float
   directionNoise(std::size_t i, std::size_t j) const
   {
-    return direction_noise_.empty()
+    return direction_noise_ == nullptr
                ? 0.0F
                : std::min(direction_noise_[i], direction_noise_[j]);
   }
@@ -98,19 +99,19 @@ private:
     if (before == GridGraph::kNone)
       return -1.0F;
     const auto first = static_cast<std::size_t>(before);
-    if (inverse_depth_.empty())
+    if (inverse_depth_ == nullptr)
       return std::abs(depth_[first] - 2.0F * depth_[here] + depth_[after]);
     const float bend =
         inverse_depth_[first] - 2.0F * inverse_depth_[here] + inverse_depth_[after];
     return std::abs(bend) * depth_[here] * depth_[after];
   }
 
-  const std::vector<float>& depth_;
-  const std::vector<std::int32_t>& target_;
-  const std::vector<std::int32_t>& source_;
-  const std::vector<float>& inverse_depth_; // empty where depth itself is linear
-  const std::vector<float>& depth_noise_;
-  const std::vector<float>& direction_noise_;
+  const float* depth_;
+  const std::int32_t* target_;
+  const std::int32_t* source_;
+  const float* inverse_depth_; // none where depth itself is linear
+  const float* depth_noise_;
+  const float* direction_noise_; // may be none
   GridSpacing spacing_;
   float sigmas_;
 };
@@ -122,7 +123,7 @@ private:
 template <typename Jumps>
 void
 KeptEdges::markBegins(std::size_t direction,
-                      const Jumps& jumps,
+                      Jumps jumps,
                       float min_weight,
                       std::size_t first,
                       std::size_t last)

@@ -121,7 +121,7 @@ private:
   template <typename Jumps>
   void
   markBegins(std::size_t direction,
-             const Jumps& jumps,
+             Jumps jumps,
              float min_weight,
              std::size_t first,
              std::size_t last);
