@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -51,14 +52,21 @@ validDepths(const GridPoints& points)
   return depths;
 }
 
-/** Deviation along one direction of a bin; nothing when there are too few samples. */
-std::optional<double>
-spreadOf(NoiseBin& bin, std::size_t direction, const Share& share)
+/** Deviations of a bin along rows and along columns; nothing when there are too few
+ * samples. */
+using Spread = std::array<std::optional<double>, 2>;
+
+std::vector<Spread>
+spreadsOf(std::vector<NoiseBin>& bins, const Share& share, int threads)
 {
-  std::vector<float>& deviations = bin.deviations[direction];
-  if (deviations.size() < kEnough)
-    return std::nullopt;
-  return share.to_sigma * quantile(deviations, share.quantile);
+  std::vector<Spread> spreads(bins.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t k = 0; k < 2 * bins.size(); ++k) {
+    std::vector<float>& deviations = bins[k / 2].deviations[k % 2];
+    if (deviations.size() >= kEnough)
+      spreads[k / 2][k % 2] = share.to_sigma * quantile(deviations, share.quantile);
+  }
+  return spreads;
 }
 
 /** What the deviations along columns have in excess of those along rows, at least,
@@ -66,17 +74,17 @@ spreadOf(NoiseBin& bin, std::size_t direction, const Share& share)
  * only; farther away, where rings lie apart and graze the ground, errors of their angle
  * and the roughness of the scene add to it. */
 double
-excessAlongColumns(std::vector<NoiseBin>& bins, const Share& share)
+excessAlongColumns(const std::vector<NoiseBin>& bins,
+                   const std::vector<Spread>& spreads)
 {
   std::size_t samples = 0;
   for (const NoiseBin& bin : bins)
     samples += bin.deviations[1].size();
   std::optional<double> least;
-  for (NoiseBin& bin : bins) {
-    if (20 * bin.deviations[1].size() < samples)
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    if (20 * bins[k].deviations[1].size() < samples)
       continue; // too few to be relied on alone
-    const std::optional<double> row = spreadOf(bin, 0, share);
-    const std::optional<double> column = spreadOf(bin, 1, share);
+    const auto& [row, column] = spreads[k];
     if (!row || !column)
       continue;
     const double excess = std::sqrt(std::max(0.0, *column * *column - *row * *row));
@@ -88,9 +96,9 @@ excessAlongColumns(std::vector<NoiseBin>& bins, const Share& share)
 /** Deviation of a bin. Depths that come in steps often tie; most of their second
  * differences vanish although each errs by up to half a step. */
 double
-sigmaOf(NoiseBin& bin, const Share& share, double excess)
+sigmaOf(NoiseBin& bin, const Spread& own, double excess)
 {
-  const double spread = std::hypot(spreadOf(bin, 0, share).value_or(0.0), excess);
+  const double spread = std::hypot(own[0].value_or(0.0), excess);
   if (bin.steps.empty() || bin.ties < bin.steps.size() / 4)
     return spread;
   return std::hypot(spread, quantile(bin.steps, 0.5) / std::sqrt(12.0));
@@ -99,17 +107,19 @@ sigmaOf(NoiseBin& bin, const Share& share, double excess)
 /** Weighted line sigma = a + b depth^2 through the bins, neither term negative; nothing
  * when no bin has enough samples. */
 std::optional<SensorNoise>
-fitBins(std::vector<NoiseBin>& bins, const Share& share)
+fitBins(std::vector<NoiseBin>& bins, const Share& share, int threads)
 {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  const double excess = excessAlongColumns(bins, share);
-  for (NoiseBin& bin : bins) {
+  const std::vector<Spread> spreads = spreadsOf(bins, share, threads);
+  const double excess = excessAlongColumns(bins, spreads);
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    NoiseBin& bin = bins[k];
     const std::size_t samples = bin.deviations[0].size();
     if (samples < kEnough)
       continue;
     const double depth = bin.depths.empty() ? 0.0 : quantile(bin.depths, 0.5);
-    const double sigma = sigmaOf(bin, share, excess);
+    const double sigma = sigmaOf(bin, spreads[k], excess);
     const Eigen::Vector2d row(1.0, depth * depth);
     // Relative errors count, so that near bins are not drowned by far ones.
     const double weight =
@@ -154,7 +164,7 @@ SensorNoise::estimate(const GridPoints& points, int threads)
   const auto [nearest, farthest] = std::minmax_element(depths.begin(), depths.end());
   std::vector<NoiseBin> bins = nurbs::sampleNoise(points, *nearest, *farthest, threads);
   const bool scattered = points.geometry.max_gap > 1 && points.geometry.row_v.empty();
-  const std::optional<SensorNoise> fitted = fitBins(bins, scattered ? kQuarter : kHalf);
+  const std::optional<SensorNoise> fitted = fitBins(bins, scattered ? kQuarter : kHalf, threads);
   if (fitted)
     return *fitted;
   return {0.001 * std::abs(quantile(depths, 0.5)), 0.0, 0.0};

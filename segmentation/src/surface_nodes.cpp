@@ -221,21 +221,28 @@ SurfaceNodes::links(std::uint32_t first, int threads) const
 }
 
 double
-measureNoiseScale(const GridPoints& points, const ViewChart& chart, BlockSize size)
+measureNoiseScale(const GridPoints& points,
+                  const ViewChart& chart,
+                  BlockSize size,
+                  int threads)
 {
   // A good part of the blocks of a scene is smooth.
   constexpr double kQuantile = 0.3;
   constexpr std::size_t kSample = 600;
   constexpr double kMuchLarger = 2.0; // in variance; less may be chance
+  constexpr double kNone = -1.0;
   const Blocks shape(points.geometry, size);
   const std::size_t count = shape.across * shape.down;
   const double least = 2.0 * blockTerms(chart);
-  std::vector<double> squares;
-  for (std::size_t block = 0; block < count; block += count / kSample + 1) {
-    const ViewSums sums = blockSums(points, chart, size, block);
+  const std::size_t stride = count / kSample + 1;
+  std::vector<double> squares((count + stride - 1) / stride, kNone);
+#pragma omp parallel for num_threads(threads)
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    const ViewSums sums = blockSums(points, chart, size, k * stride);
     if (sums.count() >= least)
-      squares.push_back(meanSquare(sums, chart));
+      squares[k] = meanSquare(sums, chart);
   }
+  squares.erase(std::remove(squares.begin(), squares.end(), kNone), squares.end());
   if (squares.empty())
     return 1.0;
   const auto where =

@@ -96,7 +96,10 @@ private:
  * deviate from smooth ones, whether or not they hold a jump; a lower quantile of a
  * sample of them. */
 double
-measureNoiseScale(const GridPoints& points, const ViewChart& chart, BlockSize size);
+measureNoiseScale(const GridPoints& points,
+                  const ViewChart& chart,
+                  BlockSize size,
+                  int threads);
 
 } // namespace nurbs
 } // namespace pcl
