@@ -20,8 +20,8 @@ constexpr float kTwoSidedSpacings = 1.5F;
 /** Cells that are looked at in one direction before it is the turn of the next. */
 constexpr std::size_t kTogether = 4096;
 
-/** Second differences of depth along the lines of one direction. Holds mere pointers, so
- * that a copy stays in registers while flags are written. */
+/** Second differences of depth along the lines of one direction. Holds mere pointers,
+ * so that a copy stays in registers while flags are written. */
 class JumpTest {
 public:
   JumpTest(const GridPoints& points,
