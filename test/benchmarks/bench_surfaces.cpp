@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 //
-// Surfaces of a 640 x 480 Kinect cloud and of a laser's 64 x 2048 image (public data
-// sets), by one and two threads: the whole of segment(), and with NURBS fits.
+// Surfaces of a 640 x 480 Kinect cloud, of a turn of KITTI's laser (public data sets)
+// and of a 64 x 2048 image of a simulated street, by one and two threads: the whole of
+// segment(), and with NURBS fits.
 
 #include "data_clouds.h"
 
 #include <pcl/common/io.h>
 #include <pcl/mapping/nurbs_reconstruction.h>
 #include <pcl/mapping/scan_readers.h>
+#include <pcl/mapping/simulator/circuits.h>
+#include <pcl/mapping/simulator/simulated_drive.h>
 #include <pcl/segmentation/entropy_rate_segmentation.h>
 
 #include <benchmark/benchmark.h>
@@ -56,6 +59,14 @@ officeSurfaces(State& state)
     surfaces(state, cloud, {});
 }
 
+void
+imageSurfaces(State& state, const Cloud::ConstPtr& image, const GridGeometry& geometry)
+{
+  surfaces(state, image, geometry);
+  state.counters["columns"] = image->width;
+  state.counters["rows"] = image->height;
+}
+
 /** The image of the laser is given, as drivers give it. */
 void
 laserSurfaces(State& state)
@@ -67,9 +78,18 @@ laserSurfaces(State& state)
   organizer.setInputCloud(cloud);
   auto image = pcl::make_shared<Cloud>();
   organizer.organize(*image);
-  surfaces(state, image, organizer.getGeometry());
-  state.counters["columns"] = image->width;
-  state.counters["rows"] = image->height;
+  imageSurfaces(state, image, organizer.getGeometry());
+}
+
+void
+simulatedSurfaces(State& state)
+{
+  LaserModel laser = LaserModel::hdl64();
+  laser.columns = 2048;
+  const SimulatedDrive drive(makeCircuit(), laser);
+  auto image = pcl::make_shared<Cloud>();
+  copyPointCloud(*drive.simulate(0).scan.cloud, *image);
+  imageSurfaces(state, image, laser.geometry());
 }
 
 void
@@ -114,6 +134,7 @@ byThreads(benchmark::internal::Benchmark* row)
 BENCHMARK(officeSurfaces)->Name("surfaces_vga/ours")->Apply(byThreads);
 BENCHMARK(officePatches)->Name("patches_vga/ours")->Apply(byThreads);
 BENCHMARK(laserSurfaces)->Name("surfaces_laser/ours")->Apply(byThreads);
+BENCHMARK(simulatedSurfaces)->Name("surfaces_simulated/ours")->Apply(byThreads);
 BENCHMARK(laserOrganized)->Name("organize_laser/ours")->Apply(byThreads);
 
 } // namespace

@@ -53,7 +53,8 @@ ROWS = {
        for row, title, target in (
            ("surfaces_vga", "Surfaces of the same cloud, with raster, noise and graph", "100 ms"),
            ("patches_vga", "The same with NURBS fits and trims", "200 ms"),
-           ("surfaces_laser", "Surfaces of a laser's image, 64 rows", "40 ms"),
+           ("surfaces_simulated", "Surfaces of a laser's image of a simulated street", "40 ms"),
+           ("surfaces_laser", "Surfaces of an image of KITTI's laser", None),
            ("organize_laser", "The laser's image from its points", None))
        for n in (1, 2)},
     **{f"register{basin}_{name}/iterations:1": (f"{what} {title}", None)
