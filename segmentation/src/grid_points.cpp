@@ -24,7 +24,7 @@ depthOf(const GridPoints& points, const Eigen::Vector3f& forward, std::size_t ce
 } // namespace
 
 void
-completeGridPoints(GridPoints& points)
+completeGridPoints(GridPoints& points, int threads)
 {
   const GridGeometry& grid = points.geometry;
   const auto cells =
@@ -33,6 +33,7 @@ completeGridPoints(GridPoints& points)
     throw std::invalid_argument("GridPoints: cloud and grid have different sizes");
   const Eigen::Vector3f forward = grid.frame.row(2).cast<float>();
   points.depth.resize(cells);
+#pragma omp parallel for num_threads(threads)
   for (std::size_t i = 0; i < cells; ++i) {
     points.depth[i] = depthOf(points, forward, i);
     if (!points.valid(i))

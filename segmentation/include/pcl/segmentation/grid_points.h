@@ -58,7 +58,7 @@ toGridPoints(const pcl::PointCloud<PointT>& cloud, const GridGeometry& geometry)
  * a sensor's grid, not in front of the sensor.
  * \throws std::invalid_argument when sizes and geometry differ */
 PCL_NURBS_SEGMENTATION_EXPORT void
-completeGridPoints(GridPoints& points);
+completeGridPoints(GridPoints& points, int threads = 1);
 
 template <typename PointT>
 GridPoints

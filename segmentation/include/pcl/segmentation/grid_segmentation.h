@@ -147,6 +147,9 @@ private:
   nurbs::GridPoints
   gatherPoints() const;
 
+  GridGeometry
+  estimateGeometry(const nurbs::GridPoints& points) const;
+
   std::optional<GridGeometry> geometry_;
   std::optional<SensorNoise> noise_;
   nurbs::GridGraphOptions graph_options_;

@@ -48,27 +48,34 @@ nurbs::GridPoints
 GridSegmentation<PointT>::gatherPoints() const
 {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  nurbs::PointList list(input_->size(), Eigen::Vector3f::Constant(nan));
-  for (const auto index : *indices_)
-    list[static_cast<std::size_t>(index)] =
-        (*input_)[static_cast<std::size_t>(index)].getVector3fMap();
   nurbs::GridPoints points;
-  points.geometry = geometry_
-                        ? *geometry_
-                        : nurbs::estimateGridGeometry(list,
-                                                      static_cast<int>(input_->width),
-                                                      static_cast<int>(input_->height),
-                                                      graph_options_.threads);
-  points.x.reserve(list.size());
-  points.y.reserve(list.size());
-  points.z.reserve(list.size());
-  for (const Eigen::Vector3f& point : list) {
-    points.x.push_back(point.x());
-    points.y.push_back(point.y());
-    points.z.push_back(point.z());
+  points.x.assign(input_->size(), nan);
+  points.y.assign(input_->size(), nan);
+  points.z.assign(input_->size(), nan);
+  for (const auto index : *indices_) {
+    const auto cell = static_cast<std::size_t>(index);
+    const PointT& point = (*input_)[cell];
+    points.x[cell] = point.x;
+    points.y[cell] = point.y;
+    points.z[cell] = point.z;
   }
-  nurbs::completeGridPoints(points);
+  points.geometry = geometry_ ? *geometry_ : estimateGeometry(points);
+  nurbs::completeGridPoints(points, graph_options_.threads);
   return points;
+}
+
+template <typename PointT>
+GridGeometry
+GridSegmentation<PointT>::estimateGeometry(const nurbs::GridPoints& points) const
+{
+  nurbs::PointList list;
+  list.reserve(points.x.size());
+  for (std::size_t cell = 0; cell < points.x.size(); ++cell)
+    list.push_back(points.point(cell));
+  return nurbs::estimateGridGeometry(list,
+                                     static_cast<int>(input_->width),
+                                     static_cast<int>(input_->height),
+                                     graph_options_.threads);
 }
 
 template <typename PointT>
