@@ -12,13 +12,18 @@ namespace pcl {
 namespace nurbs {
 namespace {
 
-/** In the sensor's frame. */
+/** In the sensor's frame; \a azimuth to the right of ahead. */
 Eigen::Vector3d
-beamDirection(const LaserModel& laser, int column, double elevation)
+beamDirection(double azimuth, double elevation)
 {
-  const double azimuth = 2.0 * M_PI * ((column + 0.5) / laser.columns - 0.5);
   const double level = std::cos(elevation);
   return {level * std::cos(azimuth), -level * std::sin(azimuth), std::sin(elevation)};
+}
+
+double
+columnAzimuth(const LaserModel& laser, int column)
+{
+  return 2.0 * M_PI * ((column + 0.5) / laser.columns - 0.5);
 }
 
 /** Whether a beam from the origin meets a box. */
@@ -49,15 +54,15 @@ isSeen(const LaserModel& laser,
   const double signal =
       surface.reflectivity * std::sqrt(cosine) * closeness * closeness;
   const double fourth = signal * signal * signal * signal;
-  const double passed = (1.0 - laser.random_loss) * (1.0 - surface.loss);
-  const double seen = passed * fourth / (1.0 + fourth);
-  return random.chance(seen);
+  return random.chance((1.0 - laser.random_loss) * fourth / (1.0 + fourth));
 }
 
 /** Errors that a beam has in all scans. */
 struct BeamErrors {
   double offset = 0.0;
   double gain = 1.0;
+  double elevation = 0.0;
+  double azimuth = 0.0;
 
   BeamErrors(const LaserModel& laser, std::uint64_t seed, std::size_t row)
   {
@@ -65,6 +70,8 @@ struct BeamErrors {
     CounterRandom random(seed, kStream, row);
     offset = laser.beam_offset * random.normal();
     gain = std::max(0.2, 1.0 + laser.beam_gain * random.normal());
+    elevation = laser.beam_angle * random.normal();
+    azimuth = laser.beam_angle * random.normal();
   }
 };
 
@@ -103,9 +110,11 @@ public:
     const std::size_t rows = laser_.elevations.size();
     beams_.clear();
     directions_.clear();
-    for (const double elevation : laser_.elevations) {
-      beams_.push_back(beamDirection(laser_, column, elevation));
-      directions_.emplace_back(pose.linear() * beams_.back());
+    const double azimuth = columnAzimuth(laser_, column);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double elevation = laser_.elevations[row];
+      beams_.push_back(beamDirection(azimuth, elevation));
+      directions_.emplace_back(pose.linear() * trueBeam(azimuth, elevation, row));
     }
     hits_.assign(rows, {laser_.max_range, BeamHit::kNothing});
     for (std::size_t row = 0; row < rows; ++row)
@@ -122,6 +131,16 @@ public:
   }
 
 private:
+  /** Where a beam goes that is believed to go as its column and the table say. */
+  Eigen::Vector3d
+  trueBeam(double azimuth, double elevation, std::size_t row) const
+  {
+    if (!view_.options.noise || laser_.beam_angle == 0.0)
+      return beams_.back();
+    return beamDirection(azimuth + errors_[row].azimuth,
+                         elevation + errors_[row].elevation);
+  }
+
   std::size_t
   placeOf(std::size_t row, int column) const
   {
@@ -168,7 +187,7 @@ beamsOnOwnBody(const LaserModel& laser)
     return result;
   for (const double elevation : laser.elevations)
     for (int column = 0; column < laser.columns; ++column) {
-      const Eigen::Vector3d beam = beamDirection(laser, column, elevation);
+      const Eigen::Vector3d beam = beamDirection(columnAzimuth(laser, column), elevation);
       result.push_back(std::any_of(laser.own_body.begin(),
                                    laser.own_body.end(),
                                    [&](const auto& box) { return meets(box, beam); }));

@@ -19,7 +19,7 @@ public:
   moveTo(double time);
 
   /** The first meetings of rays from one point with anything, as
-   * PrimitiveTree::castFan(). The rays are expected to lie in one plane. */
+   * PrimitiveTree::castFan(). It is fast for rays that lie about one plane. */
   void
   castFan(const Eigen::Vector3d& origin,
           const std::vector<Eigen::Vector3d>& directions,

@@ -99,15 +99,19 @@ TownView::castFan(const Eigen::Vector3d& origin,
                   double near,
                   std::vector<BeamHit>& hits) const
 {
-  constexpr double kFlatness = 1e-3; // metres between a ray and the plane at 100 m
+  constexpr double kRounding = 1e-3; // metres
   town_.tree().castFan(origin, directions, near, hits);
   const Eigen::Vector3d normal = directions.front().cross(directions.back());
   const Eigen::Vector3d unit = normal.normalized(); // zero for a single direction
+  double spread = 0.0;                              // of the rays about their plane
+  for (const Eigen::Vector3d& direction : directions)
+    spread = std::max(spread, std::abs(unit.dot(direction)));
   for (const Body& body : bodies_) {
     if (!body.pose)
       continue;
-    const double off = std::abs(unit.dot(body.pose->translation() - origin));
-    if (off > body.mover->radius + kFlatness)
+    const Eigen::Vector3d way = body.pose->translation() - origin;
+    const double reach = body.mover->radius + kRounding;
+    if (std::abs(unit.dot(way)) > reach + spread * (way.norm() + reach))
       continue;
     for (std::size_t i = 0; i < directions.size(); ++i)
       castAtBody(body, {origin, directions[i]}, near, hits[i]);

@@ -13,6 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double kGroundFloor = 3.4;
 constexpr double kFloor = 3.0;
+constexpr double kGlass = 0.1; // what comes back from curtains behind a pane
 
 /** A part of the front wall with openings of one kind in columns and rows. */
 struct FrontPart {
@@ -23,7 +24,7 @@ struct FrontPart {
   OpeningGrid openings; /**< first: from the corner of this part */
   double recess = 0.2;
   SurfaceKind filling = SurfaceKind::Window;
-  double filling_reflectivity = 0.0; /**< 0 for glass */
+  double filling_reflectivity = kGlass;
 };
 
 /** The sides of an opening, from the wall to its filling, with a vault over an arched
@@ -75,10 +76,7 @@ addFront(TownParts& parts, const FrontPart& front, double wall_reflectivity)
       parts.use(SurfaceKind::Wall, wall_reflectivity);
       addReveal(parts, front, corner + Vector3d(x, 0.0, z));
     }
-  if (front.filling_reflectivity > 0.0)
-    parts.use(front.filling, front.filling_reflectivity);
-  else
-    parts.useGlass(front.filling, 0.35);
+  parts.use(front.filling, front.filling_reflectivity);
   parts.addRectangle(corner + Vector3d(0.0, front.recess, 0.0), across, up);
 }
 
@@ -204,7 +202,7 @@ addHouse(TownParts& parts, double width, double depth, CounterRandom& random)
           return;
         FrontPart part = windows(left, bottom, bay, storey, n, rows);
         part.recess = shutters ? 0.08 : 0.18;
-        part.filling_reflectivity = shutters ? 0.5 : 0.0;
+        part.filling_reflectivity = shutters ? 0.5 : kGlass;
         addFront(parts, part, paint);
       };
   addWindows(0.0, 0.0, kGroundFloor, door, 1);

@@ -4,23 +4,33 @@
 #include "town_parts.h"
 #include "town_path.h"
 
+#include <cmath>
+
 namespace pcl {
 namespace nurbs {
 namespace {
 
 using Eigen::Vector3d;
 
-/** The windows of a car: four slanting sides under a roof. */
+constexpr double kLean = 0.45; // of a car's windows
+
+/** The windows of a car: four slanting sides under a roof. Most of the light goes on into
+ * the dark or is thrown elsewhere; what comes back differs from pane to pane. */
 void
-addCabin(TownParts& parts, const Vector3d& low, const Vector3d& high, double lean)
+addCabin(TownParts& parts,
+         SurfaceKind kind,
+         const Vector3d& low,
+         const Vector3d& high,
+         CounterRandom& random)
 {
   const auto corner = [&](double x, double y, bool top) {
-    const double in = top ? lean : 0.0;
+    const double in = top ? kLean : 0.0;
     return Vector3d(x > 0.0 ? high.x() - in : low.x() + in,
                     y > 0.0 ? high.y() - 0.3 * in : low.y() + 0.3 * in,
                     top ? high.z() : low.z());
   };
   const auto side = [&](double xa, double ya, double xb, double yb) {
+    parts.use(kind, 0.001 * std::pow(30.0, random.uniform()));
     parts.add(RuledPatch::bilinear(corner(xa, ya, false),
                                    corner(xb, yb, false),
                                    corner(xa, ya, true),
@@ -60,13 +70,11 @@ addCar(TownParts& parts, SurfaceKind kind, CounterRandom& random)
   parts.addBox({-0.5 * length, -0.5 * width, 0.22}, {0.5 * length, 0.5 * width, belt});
   const Vector3d low(-0.46 * length, -0.48 * width, belt);
   const Vector3d high(0.28 * length, 0.48 * width, roof);
-  constexpr double kLean = 0.45;
   const Vector3d roof_corner(low.x() + kLean, low.y() + 0.3 * kLean, roof);
   parts.addRectangle(roof_corner,
                      {high.x() - low.x() - 2.0 * kLean, 0.0, 0.0},
                      {0.0, high.y() - low.y() - 0.6 * kLean, 0.0});
-  parts.useGlass(kind, 0.5);
-  addCabin(parts, low, high, kLean);
+  addCabin(parts, kind, low, high, random);
 }
 
 void

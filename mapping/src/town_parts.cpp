@@ -39,7 +39,7 @@ void
 TownParts::add(const Primitive& primitive)
 {
   primitives.push_back(moved(primitive, frame_));
-  surfaces.push_back({kind_, reflectivity_, loss_, object_});
+  surfaces.push_back({kind_, reflectivity_, object_});
 }
 
 void

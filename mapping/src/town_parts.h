@@ -32,16 +32,6 @@ public:
   {
     kind_ = kind;
     reflectivity_ = static_cast<float>(reflectivity);
-    loss_ = 0.0F;
-  }
-
-  /** As use(), for panes that give nothing back of a share of the beams: much of a
-   * car, less of a house with curtains. */
-  void
-  useGlass(SurfaceKind kind, double loss)
-  {
-    use(kind, 0.15);
-    loss_ = static_cast<float>(loss);
   }
 
   void
@@ -89,7 +79,6 @@ private:
   Eigen::Isometry3d frame_ = Eigen::Isometry3d::Identity();
   SurfaceKind kind_ = SurfaceKind::Wall;
   float reflectivity_ = 0.5F;
-  float loss_ = 0.0F;
   std::uint32_t object_ = 0;
 };
 

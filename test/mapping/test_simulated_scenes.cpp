@@ -59,7 +59,7 @@ expectFreeWay(const Town& town)
     const Beam down{place, -Eigen::Vector3d::UnitZ()};
     const BeamHit ground = town.tree().cast(down, 0.0, 10.0);
     ASSERT_NE(ground.surface, BeamHit::kNothing) << k;
-    ASSERT_NEAR(ground.distance, 1.73, 0.45) << k;
+    ASSERT_NEAR(ground.distance, 1.89, 0.45) << k;
   }
 }
 
@@ -128,7 +128,7 @@ TEST(SimulatedScenes, aSquareIsAPlane)
     for (const Eigen::Vector3d& point : drive.simulate(k).true_points) {
       if (!point.allFinite())
         continue;
-      ASSERT_NEAR(point.z(), height - 1.73, 1e-9);
+      ASSERT_NEAR(point.z(), height - 1.89, 1e-9);
       ++returns;
     }
     EXPECT_GT(returns, 3000);

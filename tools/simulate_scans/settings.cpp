@@ -52,7 +52,7 @@ describeSensor(SimulationSettings& s, po::options_description& description)
       po::value(&s.columns)->default_value(0),
       "beams of a laser per turn and row; 0 for the sensor's own")(
       "height",
-      po::value(&s.sensor_height)->default_value(1.73, "1.73"),
+      po::value(&s.sensor_height)->default_value(1.89, "1.89"),
       "of the poses above the road, metres")(
       "yaw",
       po::value(&s.yaw)->default_value(-70.0, "-70"),

@@ -16,7 +16,7 @@ struct DriveChoice {
   double size = 120.0;           /**< of the circuit, metres */
   double speed = 8.0;            /**< on the circuit, m/s */
   double laps = 1.2;             /**< of the circuit */
-  double sensor_height = 1.73;   /**< of the poses above the road, metres */
+  double sensor_height = 1.89;   /**< of the poses above the road, metres */
   std::string trajectory;        /**< file of poses to drive along instead */
   std::string times;             /**< its times, empty for one pose a turn */
   std::string frame = "camera";  /**< what its poses are of: camera or vehicle */

@@ -24,7 +24,7 @@ struct CircuitOptions {
   double size = 120.0;  /**< longer extent, metres, at least 60; length of a Line */
   double speed = 8.0;   /**< m/s */
   double period = 0.1;  /**< between poses, seconds */
-  double height = 1.73; /**< of the poses above the ground, metres */
+  double height = 1.89; /**< of the poses above the ground, metres */
   double laps = 1.2; /**< more than one, to meet the start again; Line's end is \a size
                       * times this away */
 };

@@ -17,10 +17,11 @@ namespace nurbs {
 /** \brief A turning laser scanner: at each of its columns all beams measure at once,
  * from one point, one column after the other from behind over the left to the front.
  *
- * A return is lost more often the less light comes back: the signal is reflectivity
- * times sqrt(cos(incidence)) times (signal_range / range)^2, and the share lost 1 / (1
- * + signal^4). The root, and not the cosine of a matt surface, because rough ground
- * scatters more light back at grazing incidence. A plain value. \ingroup mapping
+ * A return is lost more often the less light comes back, and for no other reason but
+ * random_loss: the signal is reflectivity times sqrt(cos(incidence)) times (signal_range
+ * / range)^2, and the share lost 1 / (1 + signal^4). The root, and not the cosine of a
+ * matt surface, because rough ground scatters more light back at grazing incidence. A
+ * plain value. \ingroup mapping
  */
 struct PCL_NURBS_MAPPING_EXPORT LaserModel {
   std::string name;
@@ -34,15 +35,19 @@ struct PCL_NURBS_MAPPING_EXPORT LaserModel {
   double intensity_noise = 0.03; /**< standard deviation; intensities are 0 to 1 */
   double random_loss = 0.01;     /**< share lost for no reason */
   /** Errors that a beam has in every scan, as left by a calibration: standard
-   * deviations between beams of an offset of ranges (metres) and of a share of
-   * intensities. */
+   * deviations between beams of an offset of ranges (metres), of its elevation and its
+   * azimuth (radians), and of a share of intensities. Points are where \a elevations say,
+   * true points where the beam went. */
   double beam_offset = 0.0;
+  double beam_angle = 0.0;
   double beam_gain = 0.0;
   /** Parts of the vehicle, in the sensor's frame: beams that meet one give nothing. */
   std::vector<Eigen::AlignedBox3d> own_body;
 
-  /** \brief Velodyne HDL-64E: 32 beams from 2 down to -8.33 degrees by 1/3, 32 from
-   * -8.83 to -24.33 by 1/2; noise and the roof around it as in KITTI's scans. */
+  /** \brief Velodyne HDL-64E as on KITTI's car: 2160 firings a turn, its 64 beams from
+   * 1.94 down to -25 degrees, ranges cut at 80 m, the noise and the roof around it. Its
+   * beams start 0.12 m (lower half) or 0.2 m (upper half) above the origin of KITTI's
+   * frame, here all at the origin: the sensor is that much higher above the road. */
   static LaserModel
   hdl64();
 

@@ -43,11 +43,8 @@ surfaceKindName(SurfaceKind kind);
 /** \brief What a surface is made of and where it belongs. */
 struct TownSurface {
   SurfaceKind kind = SurfaceKind::Wall;
-  /** Share of light that it scatters, 0 to 1. */
+  /** Share of light that it scatters, 0 to 1; of a pane, what comes back from behind. */
   float reflectivity = 0.5F;
-  /** Share of beams that pass or are thrown elsewhere, as by glass, and give nothing.
-   */
-  float loss = 0.0F;
   /** Surfaces of one building, car, ... have the same number. */
   std::uint32_t object = 0;
 };
@@ -65,7 +62,7 @@ struct TownOptions {
   TownScene scene = TownScene::Streets;
   std::uint64_t seed = 1;
   /** Height of the driven poses above the ground, metres. */
-  double sensor_height = 1.73;
+  double sensor_height = 1.89;
   /** Whether there are cars and pedestrians that move. */
   bool movers = true;
 };
