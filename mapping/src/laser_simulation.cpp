@@ -187,7 +187,8 @@ beamsOnOwnBody(const LaserModel& laser)
     return result;
   for (const double elevation : laser.elevations)
     for (int column = 0; column < laser.columns; ++column) {
-      const Eigen::Vector3d beam = beamDirection(columnAzimuth(laser, column), elevation);
+      const Eigen::Vector3d beam =
+          beamDirection(columnAzimuth(laser, column), elevation);
       result.push_back(std::any_of(laser.own_body.begin(),
                                    laser.own_body.end(),
                                    [&](const auto& box) { return meets(box, beam); }));

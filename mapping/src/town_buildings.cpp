@@ -57,7 +57,7 @@ public:
     for (double arc = random.uniform(20.0, 100.0); arc < end;
          arc += random.uniform(60.0, 150.0)) {
       Plot plot = plotAt(arc, random.uniform(8.0, 13.0), side, 0.0);
-      plot.depth = 60.0;
+      plot.depth = random.uniform(22.0, 45.0);
       plots_.add(plot);
     }
   }
@@ -75,7 +75,12 @@ public:
       if (random.chance(block.share_built) &&
           build(arc, width, side, setback, random)) {
         const bool touching = random.chance(block.share_touching);
-        arc += width + (touching ? 0.02 : random.uniform(2.0, 9.0));
+        const double gap = touching ? 0.02 : random.uniform(2.0, 9.0);
+        if (setback > 2.0)
+          buildBoundary(arc, width, side, random);
+        if (!touching)
+          closeGap(arc + width, gap, side, setback, random);
+        arc += width + gap;
         continue;
       }
       const bool walled = random.chance(0.6) && buildWall(arc, width, side);
@@ -161,6 +166,54 @@ private:
       return true;
     }
     return false;
+  }
+
+  /** A low wall or a clipped hedge between a front garden and the sidewalk, with room
+   * for a way in. */
+  void
+  buildBoundary(double arc, double width, double side, CounterRandom& random)
+  {
+    constexpr double kWayIn = 2.4;
+    const double style = random.uniform();
+    const double height = random.uniform(0.7, 1.7);
+    if (style > 0.75)
+      return;
+    Plot plot = plotAt(arc, width - kWayIn, side, 0.15);
+    const bool hedge = style < 0.4;
+    plot.depth = hedge ? 0.7 : 0.25;
+    if (plot.width < 2.0 || !isFree(plot))
+      return;
+    plots_.add(plot);
+    parts_.beginObject(frameOf(plot));
+    if (hedge) {
+      addClippedHedge(parts_, plot.width, plot.depth, height, random);
+      return;
+    }
+    parts_.use(SurfaceKind::Wall, random.uniform(0.3, 0.55));
+    parts_.addBox({0.0, 0.0, -0.5}, {plot.width, plot.depth, height});
+  }
+
+  /** Something between a house and the next: a garage, a wall or a high hedge. */
+  void
+  closeGap(double arc, double gap, double side, double setback, CounterRandom& random)
+  {
+    constexpr double kJoint = 0.1;
+    const double style = random.uniform();
+    const double back = setback + random.uniform(0.3, 4.0);
+    const double height = random.uniform(1.7, 2.6);
+    Plot plot = plotAt(arc + kJoint, gap - 2.0 * kJoint, side, back);
+    const bool garage = style < 0.35 && plot.width > 2.6;
+    plot.depth = garage ? 5.0 : 0.6;
+    if (style > 0.85 || plot.width < 1.0 || !isFree(plot))
+      return;
+    plots_.add(plot);
+    parts_.beginObject(frameOf(plot));
+    if (!garage && style < 0.6) {
+      addClippedHedge(parts_, plot.width, plot.depth, height, random);
+      return;
+    }
+    parts_.use(SurfaceKind::Wall, random.uniform(0.3, 0.55));
+    parts_.addBox({0.0, 0.0, -0.5}, {plot.width, plot.depth, height});
   }
 
   /** A garden wall with an arched gate every four metres. */

@@ -96,6 +96,28 @@ addHedge(TownParts& parts, CounterRandom& random)
   addLeaves(parts, {0.0, 0.0, 0.6}, {1.8, 0.5, 0.8}, 0.16, 110, random);
 }
 
+} // namespace
+
+void
+addClippedHedge(
+    TownParts& parts, double length, double depth, double height, CounterRandom& random)
+{
+  constexpr double kLeavesPerArea = 8.0;
+  parts.use(SurfaceKind::Leaves, 0.45);
+  parts.addBox({0.0, 0.0, -0.3}, {length, depth, height});
+  const int count = static_cast<int>(kLeavesPerArea * length * (2.0 * height + depth));
+  for (int k = 0; k < count; ++k) {
+    const double around = random.uniform(0.0, 2.0 * height + depth);
+    const double x = random.uniform(0.0, length);
+    const double y = std::min(std::max(around - height, 0.0), depth);
+    const double z =
+        height - std::max(std::abs(around - height - 0.5 * depth) - 0.5 * depth, 0.0);
+    parts.addDisc({x, y, z}, randomDirection(random), random.uniform(0.06, 0.16));
+  }
+}
+
+namespace {
+
 /** Where things of a kind stand beside the path. */
 struct RowRules {
   double nearest = 0.0; /**< metres from the middle of the road, left positive */
@@ -175,7 +197,7 @@ addStreetSide(Rows& rows, double side)
               0.0,
               2.4},
              [](TownParts& parts, CounterRandom& random) {
-               if (random.chance(0.3))
+               if (random.chance(0.17))
                  addCar(parts, SurfaceKind::ParkedCar, random);
              });
   rows.place({at(kEdge + 0.4), at(kEdge + 0.4), 14.0, 40.0, 0.2, 2.5, 0.0}, addPole);
@@ -183,12 +205,12 @@ addStreetSide(Rows& rows, double side)
              [](TownParts& parts, CounterRandom& random) {
                addTree(parts, random.uniform(1.2, 2.4), random);
              });
-  rows.place({at(kEdge + 2.9), at(kEdge + 2.9), 5.0, 30.0, 2.0, 4.0, 0.6}, addHedge);
+  rows.place({at(kEdge + 2.9), at(kEdge + 2.9), 3.6, 12.0, 2.0, 4.0, 0.6}, addHedge);
   rows.place({at(kEdge + 4.2), at(kEdge + 6.0), 120.0, 200.0, 3.0, 4.0, 2.0},
              addPavilion);
-  rows.place({at(kEdge + 8.0), at(kEdge + 55.0), 3.0, 9.0, 4.0, 6.0, 1.5},
+  rows.place({at(kEdge + 8.0), at(kEdge + 42.0), 2.5, 6.0, 4.0, 6.0, 1.5},
              [](TownParts& parts, CounterRandom& random) {
-               addTree(parts, random.uniform(2.0, 4.0), random);
+               addTree(parts, random.uniform(2.2, 4.2), random);
              });
 }
 

@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 constexpr double kLean = 0.45; // of a car's windows
 
-/** The windows of a car: four slanting sides under a roof. Most of the light goes on into
- * the dark or is thrown elsewhere; what comes back differs from pane to pane. */
+/** The windows of a car: four slanting sides under a roof. Most of the light goes on
+ * into the dark or is thrown elsewhere; what comes back differs from pane to pane. */
 void
 addCabin(TownParts& parts,
          SurfaceKind kind,

@@ -98,7 +98,9 @@ addTunnel(TownParts& parts, const TownPath& path);
 void
 addSquare(TownParts& parts, const TownPath& path);
 
-/** Houses and garden walls on both sides; their plots are taken. */
+/** Houses, garages, garden walls and clipped hedges on both sides; their plots are
+ * taken.
+ */
 void
 addBuildings(TownParts& parts,
              const TownPath& path,
@@ -111,6 +113,15 @@ addFurniture(TownParts& parts,
              const TownPath& path,
              const TownPlots& plots,
              std::uint64_t seed);
+
+/** A hedge clipped to a box with its front from the origin along x, and leaves that
+ * stick out of it. */
+void
+addClippedHedge(TownParts& parts,
+                double length,
+                double depth,
+                double height,
+                CounterRandom& random);
 
 /** A house with its front from the origin along x. */
 void

@@ -15,11 +15,11 @@ namespace nurbs {
 
 /** Lanes and edges of a road, metres from the driven path, left positive. */
 struct RoadShape {
-  static constexpr double kMiddle = 1.7;
-  static constexpr double kHalfWidth = 5.6;
+  static constexpr double kMiddle = 1.0;
+  static constexpr double kHalfWidth = 4.9;
   static constexpr double kSidewalk = 1.8;
-  static constexpr double kOncoming = 3.3;
-  static constexpr double kParking = 4.65; // from the middle
+  static constexpr double kOncoming = 2.7;
+  static constexpr double kParking = 3.95; // from the middle
 };
 
 /** The line on the ground below a drive, as nodes at equal steps, with an end piece at

@@ -18,9 +18,10 @@ namespace nurbs {
  * from one point, one column after the other from behind over the left to the front.
  *
  * A return is lost more often the less light comes back, and for no other reason but
- * random_loss: the signal is reflectivity times sqrt(cos(incidence)) times (signal_range
- * / range)^2, and the share lost 1 / (1 + signal^4). The root, and not the cosine of a
- * matt surface, because rough ground scatters more light back at grazing incidence. A
+ * random_loss: the signal is reflectivity times sqrt(cos(incidence)) times
+ * (signal_range / range)^2, and the share lost 1 / (1 + signal^4). The root, and not
+ * the cosine of a matt surface, because rough ground scatters more light back at
+ * grazing incidence. A
  * plain value. \ingroup mapping
  */
 struct PCL_NURBS_MAPPING_EXPORT LaserModel {
@@ -36,8 +37,8 @@ struct PCL_NURBS_MAPPING_EXPORT LaserModel {
   double random_loss = 0.01;     /**< share lost for no reason */
   /** Errors that a beam has in every scan, as left by a calibration: standard
    * deviations between beams of an offset of ranges (metres), of its elevation and its
-   * azimuth (radians), and of a share of intensities. Points are where \a elevations say,
-   * true points where the beam went. */
+   * azimuth (radians), and of a share of intensities. Points are where \a elevations
+   * say, true points where the beam went. */
   double beam_offset = 0.0;
   double beam_angle = 0.0;
   double beam_gain = 0.0;

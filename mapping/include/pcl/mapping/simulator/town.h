@@ -43,7 +43,8 @@ surfaceKindName(SurfaceKind kind);
 /** \brief What a surface is made of and where it belongs. */
 struct TownSurface {
   SurfaceKind kind = SurfaceKind::Wall;
-  /** Share of light that it scatters, 0 to 1; of a pane, what comes back from behind. */
+  /** Share of light that it scatters, 0 to 1; of a pane, what comes back from behind.
+   */
   float reflectivity = 0.5F;
   /** Surfaces of one building, car, ... have the same number. */
   std::uint32_t object = 0;
