@@ -94,8 +94,15 @@ public:
   LaserScan(const SensorView& view, const LaserModel& laser, SimulatedScan& result)
       : view_(view), laser_(laser), result_(result)
   {
-    for (std::size_t row = 0; row < laser.elevations.size(); ++row)
-      errors_.emplace_back(laser, view.options.town.seed, row);
+    for (std::size_t row = 0; row < laser.elevations.size(); ++row) {
+      const double elevation = laser.elevations[row];
+      const BeamErrors errors(laser, view.options.town.seed, row);
+      believed_.push_back(beamDirection(0.0, elevation));
+      true_.push_back(view.options.noise
+                          ? beamDirection(errors.azimuth, elevation + errors.elevation)
+                          : believed_.back());
+      errors_.push_back(errors);
+    }
   }
 
   void
@@ -108,13 +115,15 @@ public:
       town.moveTo(time);
     const Eigen::Isometry3d pose = view_.drive.sensorPose(time);
     const std::size_t rows = laser_.elevations.size();
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(-columnAzimuth(laser_, column), Eigen::Vector3d::UnitZ())
+            .toRotationMatrix();
+    const Eigen::Matrix3d turn_world = pose.linear() * turn;
     beams_.clear();
     directions_.clear();
-    const double azimuth = columnAzimuth(laser_, column);
     for (std::size_t row = 0; row < rows; ++row) {
-      const double elevation = laser_.elevations[row];
-      beams_.push_back(beamDirection(azimuth, elevation));
-      directions_.emplace_back(pose.linear() * trueBeam(azimuth, elevation, row));
+      beams_.emplace_back(turn * believed_[row]);
+      directions_.emplace_back((turn_world * true_[row]).normalized());
     }
     hits_.assign(rows, {laser_.max_range, BeamHit::kNothing});
     for (std::size_t row = 0; row < rows; ++row)
@@ -131,16 +140,6 @@ public:
   }
 
 private:
-  /** Where a beam goes that is believed to go as its column and the table say. */
-  Eigen::Vector3d
-  trueBeam(double azimuth, double elevation, std::size_t row) const
-  {
-    if (!view_.options.noise || laser_.beam_angle == 0.0)
-      return beams_.back();
-    return beamDirection(azimuth + errors_[row].azimuth,
-                         elevation + errors_[row].elevation);
-  }
-
   std::size_t
   placeOf(std::size_t row, int column) const
   {
@@ -171,7 +170,9 @@ private:
   const SensorView& view_;
   const LaserModel& laser_;
   SimulatedScan& result_;
-  std::vector<Eigen::Vector3d> beams_;      // in the sensor's frame
+  std::vector<Eigen::Vector3d> believed_;   // of a column ahead, where points are put
+  std::vector<Eigen::Vector3d> true_;       // of the same, where beams go
+  std::vector<Eigen::Vector3d> beams_;      // of this column, in the sensor's frame
   std::vector<Eigen::Vector3d> directions_; // in the world
   std::vector<BeamHit> hits_;
   std::vector<BeamErrors> errors_;

@@ -6,6 +6,7 @@
 #include "town_plots.h"
 
 #include <cmath>
+#include <utility>
 
 namespace pcl {
 namespace nurbs {
@@ -28,10 +29,10 @@ nextBlock(double arc, CounterRandom& random)
 {
   const double style = random.uniform();
   Block block;
-  if (style < 0.35) // old town: houses at the sidewalk
+  if (style < 0.22) // old town: houses at the sidewalk
     block = {0.0, random.uniform(0.1, 0.6), 0.4, 0.97, 0.85};
-  else if (style < 0.75) // front gardens
-    block = {0.0, random.uniform(2.5, 6.0), 1.0, 0.9, 0.4};
+  else if (style < 0.78) // front gardens
+    block = {0.0, random.uniform(2.5, 7.0), 1.5, 0.92, 0.35};
   else if (style < 0.92) // an avenue
     block = {0.0, random.uniform(6.0, 13.0), 1.5, 0.85, 0.3};
   else // hardly built
@@ -55,7 +56,7 @@ public:
   {
     const double end = path_.nodes().back().arc;
     for (double arc = random.uniform(20.0, 100.0); arc < end;
-         arc += random.uniform(60.0, 150.0)) {
+         arc += random.uniform(80.0, 220.0)) {
       Plot plot = plotAt(arc, random.uniform(8.0, 13.0), side, 0.0);
       plot.depth = random.uniform(22.0, 45.0);
       plots_.add(plot);
@@ -83,7 +84,7 @@ public:
         arc += width + gap;
         continue;
       }
-      const bool walled = random.chance(0.6) && buildWall(arc, width, side);
+      const bool walled = random.chance(0.25) && buildWall(arc, width, side);
       arc += walled ? width : random.uniform(3.0, 8.0);
     }
   }
@@ -93,7 +94,7 @@ public:
   buildBackground(double side, double nearest, double farthest, CounterRandom& random)
   {
     const double end = path_.nodes().back().arc;
-    for (double arc = 0.0; arc < end; arc += random.uniform(3.0, 9.0)) {
+    for (double arc = 0.0; arc < end; arc += random.uniform(2.0, 6.0)) {
       Plot plot = plotAt(
           arc, random.uniform(6.0, 22.0), side, random.uniform(nearest, farthest));
       plot.depth = random.uniform(4.0, 10.0);
@@ -268,9 +269,10 @@ addBuildings(TownParts& parts,
   builder.leaveSideStreets(-1.0, right);
   builder.buildFront(1.0, left);
   builder.buildFront(-1.0, right);
-  for (const double nearest : {16.0, 38.0}) {
-    builder.buildBackground(1.0, nearest, nearest + 16.0, left);
-    builder.buildBackground(-1.0, nearest, nearest + 16.0, right);
+  for (const auto& [nearest, farthest] :
+       {std::pair{4.0, 9.0}, {16.0, 32.0}, {38.0, 54.0}}) {
+    builder.buildBackground(1.0, nearest, farthest, left);
+    builder.buildBackground(-1.0, nearest, farthest, right);
   }
 }
 

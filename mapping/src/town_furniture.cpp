@@ -48,7 +48,7 @@ void
 addTree(TownParts& parts, double size, CounterRandom& random)
 {
   const double radius = size * random.uniform(0.07, 0.12);
-  const double height = random.uniform(1.8, 3.0);
+  const double height = random.uniform(1.3, 2.8);
   parts.use(SurfaceKind::Trunk, 0.4);
   parts.addCylinder({0.0, 0.0, -0.6}, {0.0, 0.0, height + 0.6}, radius, 0.7 * radius);
   addLeaves(parts,
@@ -94,6 +94,15 @@ void
 addHedge(TownParts& parts, CounterRandom& random)
 {
   addLeaves(parts, {0.0, 0.0, 0.6}, {1.8, 0.5, 0.8}, 0.16, 110, random);
+}
+
+void
+addBush(TownParts& parts, CounterRandom& random)
+{
+  const double size = random.uniform(0.7, 1.9);
+  const double height = size * random.uniform(0.8, 1.3);
+  addLeaves(
+      parts, {0.0, 0.0, 0.8 * height}, {size, size, height}, 0.13 * size, 130, random);
 }
 
 } // namespace
@@ -208,9 +217,13 @@ addStreetSide(Rows& rows, double side)
   rows.place({at(kEdge + 2.9), at(kEdge + 2.9), 3.6, 12.0, 2.0, 4.0, 0.6}, addHedge);
   rows.place({at(kEdge + 4.2), at(kEdge + 6.0), 120.0, 200.0, 3.0, 4.0, 2.0},
              addPavilion);
-  rows.place({at(kEdge + 8.0), at(kEdge + 42.0), 2.5, 6.0, 4.0, 6.0, 1.5},
+  rows.place({at(kEdge + 3.2), at(kEdge + 9.0), 2.0, 7.0, 2.0, 4.0, 0.7}, addBush);
+  rows.place({at(kEdge + 7.0), at(kEdge + 38.0), 1.5, 4.0, 4.0, 6.0, 1.2},
              [](TownParts& parts, CounterRandom& random) {
-               addTree(parts, random.uniform(2.2, 4.2), random);
+               if (random.chance(0.5))
+                 addBush(parts, random);
+               else
+                 addTree(parts, random.uniform(2.2, 4.2), random);
              });
 }
 
