@@ -180,7 +180,7 @@ private:
     if (style > 0.75)
       return;
     Plot plot = plotAt(arc, width - kWayIn, side, 0.15);
-    const bool hedge = style < 0.4;
+    const bool hedge = style < 0.5;
     plot.depth = hedge ? 0.7 : 0.25;
     if (plot.width < 2.0 || !isFree(plot))
       return;
@@ -203,13 +203,13 @@ private:
     const double back = setback + random.uniform(0.3, 4.0);
     const double height = random.uniform(1.7, 2.6);
     Plot plot = plotAt(arc + kJoint, gap - 2.0 * kJoint, side, back);
-    const bool garage = style < 0.35 && plot.width > 2.6;
+    const bool garage = style < 0.25 && plot.width > 2.6;
     plot.depth = garage ? 5.0 : 0.6;
     if (style > 0.85 || plot.width < 1.0 || !isFree(plot))
       return;
     plots_.add(plot);
     parts_.beginObject(frameOf(plot));
-    if (!garage && style < 0.6) {
+    if (!garage && style < 0.65) {
       addClippedHedge(parts_, plot.width, plot.depth, height, random);
       return;
     }

@@ -111,9 +111,11 @@ void
 addClippedHedge(
     TownParts& parts, double length, double depth, double height, CounterRandom& random)
 {
-  constexpr double kLeavesPerArea = 8.0;
+  constexpr double kLeavesPerArea = 10.0;
+  constexpr double kRoughness = 0.12; // from the dense inside to the outer leaves
   parts.use(SurfaceKind::Leaves, 0.45);
-  parts.addBox({0.0, 0.0, -0.3}, {length, depth, height});
+  parts.addBox({kRoughness, kRoughness, -0.3},
+               {length - kRoughness, depth - kRoughness, height - kRoughness});
   const int count = static_cast<int>(kLeavesPerArea * length * (2.0 * height + depth));
   for (int k = 0; k < count; ++k) {
     const double around = random.uniform(0.0, 2.0 * height + depth);
