@@ -10,6 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
+#include <fstream>
+
 namespace {
 
 using namespace pcl::nurbs;
@@ -47,6 +51,56 @@ TEST(RealDataSets, kittiRaw)
 {
   PCL_NURBS_DATA_OR_SKIP(root, "kitti_raw/sfnd_data_1_thin4");
   expectGood(*openKittiRaw(root.string()), 22, false);
+}
+
+/** Drives of KITTI's raw data that come with the vehicle's navigation. */
+std::vector<std::filesystem::path>
+drivesWithNavigation(const std::filesystem::path& root)
+{
+  std::vector<std::filesystem::path> drives;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
+    if (entry.path().filename() == "oxts" &&
+        std::filesystem::exists(entry.path() / "data"))
+      drives.push_back(entry.path().parent_path());
+  return drives;
+}
+
+/** Speed ahead, which the navigation measures beside the place: the ninth number. */
+double
+speedAhead(const std::filesystem::path& drive, std::size_t index)
+{
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "%010zu.txt", index);
+  std::ifstream file(drive / "oxts/data" / name.data());
+  double number = 0.0;
+  for (int k = 0; k < 9; ++k)
+    file >> number;
+  EXPECT_TRUE(file) << drive << ' ' << name.data();
+  return number;
+}
+
+TEST(RealDataSets, navigationOfKittiRawMovesAsFastAsItSays)
+{
+  PCL_NURBS_DATA_OR_SKIP(root, "kitti_raw");
+  const auto drives = drivesWithNavigation(root);
+  if (drives.empty())
+    GTEST_SKIP() << "no drive in " << root << " has oxts/";
+  for (const std::filesystem::path& drive : drives) {
+    const auto source = openKittiRaw(drive.string());
+    ASSERT_NE(source->truth(), nullptr);
+    const Trajectory& truth = *source->truth();
+    ASSERT_EQ(truth.size(), source->size());
+    for (std::size_t k = 1; k < truth.size(); ++k) {
+      const Eigen::Isometry3d step =
+          truth[k - 1].T_world_body.inverse() * truth[k].T_world_body;
+      const double seconds = truth[k].stamp - truth[k - 1].stamp;
+      const double ahead =
+          0.5 * (speedAhead(drive, k - 1) + speedAhead(drive, k)) * seconds;
+      // The laser is a metre from what the navigation gives the speed of.
+      const double turned = Eigen::AngleAxisd(step.linear()).angle();
+      EXPECT_NEAR(step.translation().x(), ahead, 0.03 + 0.03 * ahead + turned) << k;
+    }
+  }
 }
 
 TEST(RealDataSets, folderOfScansWithPosesAndTimesAbove)
