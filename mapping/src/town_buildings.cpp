@@ -180,7 +180,7 @@ private:
     if (style > 0.75)
       return;
     Plot plot = plotAt(arc, width - kWayIn, side, 0.15);
-    const bool hedge = style < 0.5;
+    const bool hedge = style < 0.6;
     plot.depth = hedge ? 0.7 : 0.25;
     if (plot.width < 2.0 || !isFree(plot))
       return;

@@ -219,7 +219,7 @@ addStreetSide(Rows& rows, double side)
   rows.place({at(kEdge + 2.9), at(kEdge + 2.9), 3.6, 12.0, 2.0, 4.0, 0.6}, addHedge);
   rows.place({at(kEdge + 4.2), at(kEdge + 6.0), 120.0, 200.0, 3.0, 4.0, 2.0},
              addPavilion);
-  rows.place({at(kEdge + 3.2), at(kEdge + 9.0), 2.0, 7.0, 2.0, 4.0, 0.7}, addBush);
+  rows.place({at(kEdge + 3.2), at(kEdge + 9.0), 1.5, 5.0, 2.0, 4.0, 0.7}, addBush);
   rows.place({at(kEdge + 7.0), at(kEdge + 38.0), 1.5, 4.0, 4.0, 6.0, 1.2},
              [](TownParts& parts, CounterRandom& random) {
                if (random.chance(0.5))

@@ -32,6 +32,8 @@ circuitOf(const DriveChoice& choice)
   options.speed = choice.speed;
   options.laps = choice.laps;
   options.height = choice.sensor_height;
+  if (choice.sensor == "kinect")
+    options.period = DepthCameraModel::kinect().period;
   try {
     return makeCircuit(options);
   } catch (const std::invalid_argument&) {
