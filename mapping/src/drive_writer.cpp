@@ -208,7 +208,8 @@ writeTumDrive(const SimulatedDrive& drive,
       [&](const Trajectory& written) {
         std::string list = "# timestamp filename\n";
         for (const StampedPose& pose : written)
-          list += formatted("%.6f %s\n", pose.stamp, name(pose.stamp).c_str());
+          list +=
+              formatted("%.9f %s\n", pose.stamp, name(pose.stamp).c_str()); // as poses
         writeFileAtomically((root / "depth.txt").string(), list);
         writeTumTrajectory((root / "groundtruth.txt").string(), written);
       });

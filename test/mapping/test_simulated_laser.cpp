@@ -62,6 +62,85 @@ TEST(SimulatedLaser, noiseHasTheStatisticsOfTheModel)
   EXPECT_NEAR(std::sqrt(offsets), laser.beam_offset, 0.3 * laser.beam_offset);
 }
 
+/** By how much the beams of a scan go elsewhere than its raster says, elevation and
+ * azimuth in radians, mean and largest difference from it within a beam. */
+std::vector<std::array<double, 3>>
+angleErrors(const SimulatedDrive& drive, std::size_t index)
+{
+  const SimulatedScan scan = drive.simulate(index);
+  const Eigen::Isometry3d T_sensor_world = drive.sensorPose(scan.scan.stamp).inverse();
+  const std::size_t columns = scan.scan.cloud->width;
+  std::vector<std::array<double, 3>> result;
+  for (std::size_t row = 0; row < scan.scan.cloud->height; ++row) {
+    std::vector<Eigen::Vector2d> errors;
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    for (std::size_t column = 0; column < columns; ++column) {
+      const std::size_t i = row * columns + column;
+      if (scan.surfaces[i] == BeamHit::kNothing)
+        continue;
+      const Eigen::Vector3d went = T_sensor_world * scan.true_points[i];
+      const Eigen::Vector3d said =
+          (*scan.scan.cloud)[i].getVector3fMap().cast<double>();
+      const auto elevation = [](const Eigen::Vector3d& p) {
+        return std::atan2(p.z(), p.head<2>().norm());
+      };
+      const double turn = said.x() * went.y() - said.y() * went.x();
+      errors.emplace_back(elevation(went) - elevation(said),
+                          turn / (said.head<2>().norm() * went.head<2>().norm()));
+      mean += errors.back();
+    }
+    mean /= static_cast<double>(errors.size());
+    double spread = 0.0;
+    for (const Eigen::Vector2d& error : errors)
+      spread = std::max(spread, (error - mean).norm());
+    result.push_back({mean.x(), mean.y(), spread});
+  }
+  return result;
+}
+
+TEST(SimulatedLaser, beamsGoWhereTheirErrorsSayInEveryScan)
+{
+  const double deviation = LaserModel::hdl64().beam_angle;
+  const SimulatedDrive drive = townDrive({}, 100);
+  const auto errors = angleErrors(drive, 10);
+  const auto later = angleErrors(drive, 25);
+  std::array<double, 2> squares{};
+  for (std::size_t row = 0; row < errors.size(); ++row) {
+    EXPECT_LT(errors[row][2], 2e-6) << row; // the points are of single precision
+    for (const std::size_t k : {0U, 1U}) {
+      EXPECT_NEAR(errors[row][k], later[row][k], 1e-6) << row;
+      squares.at(k) += errors[row][k] * errors[row][k];
+    }
+  }
+  for (const double sum : squares) // 64 errors tell their deviation to 9 %
+    EXPECT_NEAR(std::sqrt(sum / 64.0), deviation, 0.3 * deviation);
+  SimulationOptions exact;
+  exact.noise = false;
+  for (const auto& error : angleErrors(townDrive(exact, 100), 10))
+    EXPECT_LT(std::hypot(error[0], error[1]), 1e-6);
+}
+
+TEST(SimulatedLaser, nearWallsLoseNothingButTheRandomShare)
+{
+  SimulationOptions options;
+  options.town.scene = TownScene::Tunnel;
+  const SimulatedScan seen = townDrive(options, 600).simulate(30);
+  options.noise = false;
+  const SimulatedScan all = townDrive(options, 600).simulate(30);
+  double lost = 0.0;
+  double total = 0.0;
+  for (std::size_t i = 0; i < all.surfaces.size(); ++i) {
+    if (all.surfaces[i] == BeamHit::kNothing ||
+        (*all.scan.cloud)[i].getVector3fMap().norm() > 12.0F)
+      continue;
+    ++total;
+    lost += seen.surfaces[i] == BeamHit::kNothing ? 1.0 : 0.0;
+  }
+  const double share = LaserModel::hdl64().random_loss;
+  ASSERT_GT(total, 20000.0);
+  EXPECT_NEAR(lost / total, share, 5.0 * std::sqrt(share / total));
+}
+
 TEST(SimulatedLaser, theOwnBodyHidesWhatIsBehindIt)
 {
   SimulationOptions options;

@@ -45,8 +45,8 @@ protected:
     for (std::size_t k = 0; k < kCount; ++k) {
       const StampedPose& read = (*source.truth())[k];
       const StampedPose& given = (*drive.truth())[kFirst + k];
-      EXPECT_NEAR(source.stamp(k), drive.stamp(kFirst + k), 1e-6);
-      EXPECT_NEAR(read.stamp, given.stamp, 1e-6);
+      EXPECT_NEAR(source.stamp(k), drive.stamp(kFirst + k), 1e-9);
+      EXPECT_NEAR(read.stamp, given.stamp, 1e-9);
       EXPECT_LT((read.T_world_body.matrix() - given.T_world_body.matrix()).norm(),
                 2e-6);
     }
@@ -135,7 +135,10 @@ TEST_F(WrittenDrives, aDepthCameraInTumLayout)
       Eigen::AngleAxisd(-0.2, Eigen::Vector3d(1.0, 0.1, 0.05).normalized()));
   options.T_body_sensor.translation().y() = -3.0;
   for (const DepthCameraModel& camera : {DepthCameraModel::kinect(), small}) {
-    const SimulatedDrive drive(shortDrive(8), camera, options);
+    Trajectory path = shortDrive(8);
+    for (StampedPose& pose : path)
+      pose.stamp /= 3.0; // 30 images a second, times that no decimal fraction is
+    const SimulatedDrive drive(path, camera, options);
     ASSERT_EQ(writeTumDrive(drive, folder.string(), part()), kCount);
     const auto source = openDepthSequence(folder.string());
     expectTimesAndPoses(*source, drive);
