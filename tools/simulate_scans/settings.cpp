@@ -25,7 +25,9 @@ describeDrive(SimulationSettings& s, po::options_description& description)
       "size",
       po::value(&s.size)->default_value(120.0),
       "extent of the circuit, length of the line, metres")(
-      "speed", po::value(&s.speed)->default_value(8.0), "on the circuit, m/s")(
+      "speed",
+      po::value(&s.speed)->default_value(8.0),
+      "on the circuit, m/s; for a depth camera rather a walking pace")(
       "trajectory",
       po::value(&s.trajectory)->value_name("FILE"),
       "drive along these poses instead (KITTI's format or TUM's)")(
@@ -53,7 +55,7 @@ describeSensor(SimulationSettings& s, po::options_description& description)
       "beams of a laser per turn and row; 0 for the sensor's own")(
       "height",
       po::value(&s.sensor_height)->default_value(1.89, "1.89"),
-      "of the poses above the road, metres")(
+      "of the poses above the road, metres (where the beams of a laser start)")(
       "yaw",
       po::value(&s.yaw)->default_value(-70.0, "-70"),
       "where a camera looks, degrees left of ahead")(
