@@ -111,10 +111,12 @@ expectSameDepths(const Scan& read,
     if (!std::isfinite(wanted.z()))
       continue;
     ++seen;
-    const double column = static_cast<double>(i % given.cloud->width);
-    const double row = static_cast<double>(i / given.cloud->width);
-    const auto x = static_cast<float>(std::abs(column - lens.cx) / lens.fx);
-    const auto y = static_cast<float>(std::abs(row - lens.cy) / lens.fy);
+    const std::size_t column = i % given.cloud->width;
+    const std::size_t row = i / given.cloud->width;
+    const auto x =
+        static_cast<float>(std::abs(static_cast<double>(column) - lens.cx) / lens.fx);
+    const auto y =
+        static_cast<float>(std::abs(static_cast<double>(row) - lens.cy) / lens.fy);
     ASSERT_NEAR(point.z(), wanted.z(), kHalfStep + kSingle) << i;
     ASSERT_NEAR(point.x(), wanted.x(), x * kHalfStep + kSingle) << i;
     ASSERT_NEAR(point.y(), wanted.y(), y * kHalfStep + kSingle) << i;
