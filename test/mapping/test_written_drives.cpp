@@ -126,6 +126,10 @@ expectSameDepths(const Scan& read,
 
 TEST_F(WrittenDrives, aDepthCameraInTumLayout)
 {
+  DepthCameraModel half = DepthCameraModel::kinect();
+  half.width = 320;
+  half.height = 240;
+  half.intrinsics = {262.5, 262.5, 159.5, 119.5};
   DepthCameraModel small = DepthCameraModel::kinect();
   small.width = 80;
   small.height = 60;
@@ -136,7 +140,7 @@ TEST_F(WrittenDrives, aDepthCameraInTumLayout)
   options.T_body_sensor.rotate(
       Eigen::AngleAxisd(-0.2, Eigen::Vector3d(1.0, 0.1, 0.05).normalized()));
   options.T_body_sensor.translation().y() = -3.0;
-  for (const DepthCameraModel& camera : {DepthCameraModel::kinect(), small}) {
+  for (const DepthCameraModel& camera : {half, small}) {
     Trajectory path = shortDrive(8);
     for (StampedPose& pose : path)
       pose.stamp /= 3.0; // 30 images a second, times that no decimal fraction is
