@@ -182,16 +182,8 @@ private:
     Plot plot = plotAt(arc, width - kWayIn, side, 0.15);
     const bool hedge = style < 0.6;
     plot.depth = hedge ? 0.7 : 0.25;
-    if (plot.width < 2.0 || !isFree(plot))
-      return;
-    plots_.add(plot);
-    parts_.beginObject(frameOf(plot));
-    if (hedge) {
-      addClippedHedge(parts_, plot.width, plot.depth, height, random);
-      return;
-    }
-    parts_.use(SurfaceKind::Wall, random.uniform(0.3, 0.55));
-    parts_.addBox({0.0, 0.0, -0.5}, {plot.width, plot.depth, height});
+    if (plot.width >= 2.0)
+      buildClosure(plot, hedge, height, random);
   }
 
   /** Something between a house and the next: a garage, a wall or a high hedge. */
@@ -205,11 +197,20 @@ private:
     Plot plot = plotAt(arc + kJoint, gap - 2.0 * kJoint, side, back);
     const bool garage = style < 0.25 && plot.width > 2.6;
     plot.depth = garage ? 5.0 : 0.6;
-    if (style > 0.85 || plot.width < 1.0 || !isFree(plot))
+    const bool hedge = !garage && style < 0.65;
+    if (style <= 0.85 && plot.width >= 1.0)
+      buildClosure(plot, hedge, height, random);
+  }
+
+  /** A clipped hedge, or a box of walls, on a plot if it is free. */
+  void
+  buildClosure(const Plot& plot, bool hedge, double height, CounterRandom& random)
+  {
+    if (!isFree(plot))
       return;
     plots_.add(plot);
     parts_.beginObject(frameOf(plot));
-    if (!garage && style < 0.65) {
+    if (hedge) {
       addClippedHedge(parts_, plot.width, plot.depth, height, random);
       return;
     }

@@ -99,8 +99,7 @@ void
 addSquare(TownParts& parts, const TownPath& path);
 
 /** Houses, garages, garden walls and clipped hedges on both sides; their plots are
- * taken.
- */
+ * taken. */
 void
 addBuildings(TownParts& parts,
              const TownPath& path,
@@ -114,8 +113,8 @@ addFurniture(TownParts& parts,
              const TownPlots& plots,
              std::uint64_t seed);
 
-/** A hedge clipped to a box with its front from the origin along x, and leaves that
- * stick out of it. */
+/** A hedge clipped to a box with its front from the origin along x, and leaves
+ * around it. */
 void
 addClippedHedge(TownParts& parts,
                 double length,

@@ -21,8 +21,7 @@ namespace nurbs {
  * random_loss: the signal is reflectivity times sqrt(cos(incidence)) times
  * (signal_range / range)^2, and the share lost 1 / (1 + signal^4). The root, and not
  * the cosine of a matt surface, because rough ground scatters more light back at
- * grazing incidence. A
- * plain value. \ingroup mapping
+ * grazing incidence. A plain value. \ingroup mapping
  */
 struct PCL_NURBS_MAPPING_EXPORT LaserModel {
   std::string name;
