@@ -25,6 +25,12 @@ struct LocalSurface {
   {
     return !normal.isZero(0.0);
   }
+
+  bool
+  edge() const
+  {
+    return !line.isZero(0.0);
+  }
 };
 
 /** The plane through points with these moments, when they lie on one. */

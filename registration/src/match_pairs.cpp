@@ -15,6 +15,9 @@ namespace {
 /** A pair is looked up again when its point has moved by so many voxels: the iteration
  * ends with many small steps. More than this leaves a bias towards the guess. */
 constexpr double kStaleMove = 0.01;
+/** Nor by so many of the steps that end the iteration: who asks for smaller ones wants
+ * no such bias. */
+constexpr double kStaleSteps = 50.0;
 /** The same for a point that found nothing, which is the most costly thing to find. */
 constexpr double kStaleMiss = 0.4;
 /** Thickness of a plane in Generalized ICP, as a variance relative to its extent. */
@@ -96,10 +99,10 @@ MatchPairs::metric(std::size_t i,
 
 PairTerm
 MatchPairs::makeTerm(std::size_t i,
+                     const MatchPair& pair,
                      const Eigen::Vector3d& place,
                      const Eigen::Matrix3d& rotation) const
 {
-  const MatchPair& pair = pairs_[i];
   // On a plane the mean of all its points has less noise than the nearest one.
   const bool plane =
       options_.metric == MatchMetric::PointToPlane && pair.surface.flat();
@@ -117,18 +120,32 @@ void
 MatchPairs::update(const Eigen::Isometry3d& pose, bool keep_pairs)
 {
   const double size = map_.options().voxel_size;
+  const double moved =
+      std::min(size * kStaleMove, kStaleSteps * options_.translation_epsilon);
   const auto work = [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d place = pose * scan_[i].cast<double>();
       MatchPair& pair = pairs_[i];
-      const double stale = size * (pair.found ? kStaleMove : kStaleMiss);
+      const double stale = pair.found ? moved : size * kStaleMiss;
       if (!keep_pairs && !((place - pair.place).squaredNorm() < stale * stale))
         lookUp(place, pair);
       if (pair.found)
-        terms_[i] = makeTerm(i, place, pose.linear());
+        terms_[i] = makeTerm(i, pair, place, pose.linear());
     }
   };
   forChunks(scan_.size(), options_.threads, work);
+}
+
+std::optional<PairTerm>
+MatchPairs::termAt(std::size_t i,
+                   const Eigen::Vector3d& place,
+                   const Eigen::Matrix3d& rotation) const
+{
+  MatchPair pair = pairs_[i];
+  lookUp(place, pair);
+  if (!pair.found)
+    return std::nullopt;
+  return makeTerm(i, pair, place, rotation);
 }
 
 std::size_t

@@ -64,6 +64,13 @@ public:
     return terms_[i];
   }
 
+  /** What a pair's term would be if its point lay at another place; nothing without a
+   * counterpart there. */
+  std::optional<PairTerm>
+  termAt(std::size_t i,
+         const Eigen::Vector3d& place,
+         const Eigen::Matrix3d& rotation) const;
+
   /** Number of points with a counterpart. */
   std::size_t
   found() const;
@@ -82,6 +89,7 @@ private:
 
   PairTerm
   makeTerm(std::size_t i,
+           const MatchPair& pair,
            const Eigen::Vector3d& place,
            const Eigen::Matrix3d& rotation) const;
 

@@ -4,23 +4,23 @@
 #include "match_statistics.h"
 
 #include "chunked_sum.h"
-#include "voxel_key.h"
+#include "gradient_scatter.h"
+#include "gradient_slope.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
-#include <unordered_map>
 
 namespace pcl {
 namespace nurbs {
 namespace {
 
-/** Cells of the cluster-robust covariance, in voxels. */
-constexpr double kClusterVoxels = 2.0;
+/** Cells of the gradient's scatter, in voxels: a plane is of two, and points within
+ * one share it. */
+constexpr double kCellVoxels = 2.0;
 
 struct DescriptionSums {
   TangentMatrix support = TangentMatrix::Zero();
-  TangentMatrix curvature = TangentMatrix::Zero();
   double squared_range = 0.0;
   double weight = 0.0;
   double weighted_square = 0.0;
@@ -32,7 +32,6 @@ struct DescriptionSums {
   operator+=(const DescriptionSums& other)
   {
     support += other.support;
-    curvature += other.curvature;
     squared_range += other.squared_range;
     weight += other.weight;
     weighted_square += other.weighted_square;
@@ -77,44 +76,11 @@ degeneracyOf(const DescriptionSums& sums, double min_support)
   return result;
 }
 
-/** Gradients of the loss, summed per cell of the target: their scatter is that of the
- * gradient's error when cells err independently. */
-TangentMatrix
-gradientScatter(const MatchPairs& pairs,
-                const ScanPoints& scan,
-                const RobustKernel& kernel,
-                double cluster_size)
-{
-  std::vector<Tangent> gradients;
-  std::unordered_map<std::uint64_t, std::size_t> cells;
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const MatchPair& pair = pairs.pairs()[i];
-    const auto cell = voxelCell(pair.target, 1.0 / cluster_size);
-    if (!pair.found || !cell)
-      continue;
-    const auto known = cells.emplace(voxelKey(*cell), gradients.size());
-    if (known.second)
-      gradients.emplace_back(Tangent::Zero());
-    const PairTerm& term = pairs.term(i);
-    gradients[known.first->second] += kernel.weight(term.square) *
-                                      pointJacobian(scan[i]).transpose() *
-                                      (term.metric * term.residual);
-  }
-  TangentMatrix scatter = TangentMatrix::Zero();
-  for (const Tangent& gradient : gradients)
-    scatter += gradient * gradient.transpose();
-  // Six parameters were fitted to the gradients' sum, and the mean of the inverse of an
-  // estimated 6 x 6 scatter is too large (Hotelling): both count with few cells only.
-  const auto count = static_cast<double>(gradients.size());
-  return scatter * (count / std::max(count - 6.0, 1.0)) *
-         ((count - 1.0) / std::max(count - 8.0, 1.0));
-}
-
-/** Covariance and information from curvature and scatter, in the directions that the
- * surroundings support. */
+/** Covariance and information from the gradient's slope and scatter, in the directions
+ * that the surroundings support. */
 void
-setUncertainty(const TangentMatrix& curvature,
-               const TangentMatrix& scatter,
+setUncertainty(const TangentMatrix& slope,
+               const GradientScatter& scatter,
                MatchResult& result)
 {
   const Degeneracy& degeneracy = result.degeneracy;
@@ -122,9 +88,9 @@ setUncertainty(const TangentMatrix& curvature,
   Eigen::MatrixXd back = degeneracy.directions; // to tangents in metres and radians
   back.bottomRows<3>() /= degeneracy.scale;
   const Eigen::MatrixXd basis = back.rightCols(known);
-  const Eigen::MatrixXd inverse = (basis.transpose() * curvature * basis).inverse();
-  const Eigen::MatrixXd reduced =
-      inverse * (basis.transpose() * scatter * basis) * inverse;
+  const Eigen::MatrixXd inverse = (basis.transpose() * slope * basis).inverse();
+  const Eigen::MatrixXd within = scatter.in(basis);
+  const Eigen::MatrixXd reduced = inverse * within * inverse;
   const Eigen::MatrixXd unknown = back.leftCols(degeneracy.unsupported);
   result.covariance = basis * reduced * basis.transpose() +
                       kUnsupportedVariance * unknown * unknown.transpose();
@@ -180,11 +146,6 @@ describeMatch(const MatchPairs& pairs,
       sums.support += options.scatter_weight * jacobian.transpose() * jacobian;
     }
     const double weight = kernel.weight(term.square);
-    // A nearest point on an edge goes along with the scan: its distance holds nothing.
-    if (options.metric != MatchMetric::PointToPlane || pair.surface.flat() ||
-        pair.surface.scattered)
-      sums.curvature += kernel.curvature(term.square) *
-                        (jacobian.transpose() * term.metric * jacobian);
     sums.squared_range += scan[i].cast<double>().squaredNorm();
     sums.weight += weight;
     sums.weighted_square += weight * term.square;
@@ -199,8 +160,8 @@ describeMatch(const MatchPairs& pairs,
   result.near_share = sums.near / static_cast<double>(scan.size());
   result.rmse = std::sqrt(sums.weighted_square / sums.weight);
   result.degeneracy = degeneracyOf(sums, options.min_support);
-  setUncertainty(sums.curvature,
-                 gradientScatter(pairs, scan, kernel, kClusterVoxels * voxel_size),
+  setUncertainty(gradientSlope(pairs, scan, result.pose, kernel, options, voxel_size),
+                 GradientScatter(pairs, scan, kernel, kCellVoxels * voxel_size),
                  result);
 }
 

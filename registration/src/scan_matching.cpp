@@ -21,8 +21,10 @@ constexpr std::size_t kMinPairs = 6;
  * target is one exact plane, all that is curved would be an outlier. */
 constexpr double kMinScale = 0.02;
 constexpr double kKernelSigmas = 3.0;
-/** Iterations in which pairs are found anew. */
+/** Iterations in which pairs are found anew, and as a share of all where these are
+ * more. */
 constexpr int kMostPairings = 30;
+constexpr double kPairingShare = 0.375;
 /** The kernel begins with so many voxels and shrinks by a factor per iteration, so that
  * a rough guess is not taken for outliers (graduated non-convexity). */
 constexpr double kFirstWidth = 1.0;
@@ -152,10 +154,12 @@ matchScan(const VoxelMap& map,
   result.pose = guess;
   MatchPairs pairs(map, scan, normals, options);
   const double size = map.options().voxel_size;
+  const int pairings =
+      std::max(kMostPairings, static_cast<int>(kPairingShare * options.max_iterations));
   for (; result.iterations < options.max_iterations && !result.converged;
        ++result.iterations) {
     // Pairs that are kept end a cycle between two ways of pairing.
-    pairs.update(result.pose, result.iterations >= kMostPairings);
+    pairs.update(result.pose, result.iterations >= pairings);
     if (pairs.found() < kMinPairs)
       return result;
     const RobustKernel kernel =
