@@ -24,6 +24,25 @@ using namespace pcl::nurbs;
 using namespace pcl::nurbs::test;
 using Cloud = PointCloud<PointXYZ>;
 
+/** Align two independent samples of a scene. */
+MatchResult
+alignSamples(ScanRegistration<PointXYZ>& registration,
+             const Scene& scene,
+             const Eigen::Isometry3d& truth,
+             double noise,
+             std::mt19937& random)
+{
+  const auto first = sampleScene(scene, 8000, noise, random);
+  const auto second = sampleScene(scene, 4000, noise, random);
+  registration.setInputTarget(
+      cloudSeenFrom<PointXYZ>(Eigen::Isometry3d::Identity(), first));
+  registration.setInputSource(cloudSeenFrom<PointXYZ>(truth, second));
+  Cloud aligned;
+  registration.align(aligned);
+  EXPECT_TRUE(registration.hasConverged());
+  return registration.getResult();
+}
+
 MatchResult
 alignScene(const Scene& scene,
            const Eigen::Isometry3d& truth,
@@ -32,18 +51,10 @@ alignScene(const Scene& scene,
            std::mt19937& random,
            double voxel_size = 0.7)
 {
-  const auto first = sampleScene(scene, 8000, noise, random);
-  const auto second = sampleScene(scene, 4000, noise, random);
   ScanRegistration<PointXYZ> registration;
   registration.setMetric(metric);
   registration.setVoxelSize(voxel_size);
-  registration.setInputTarget(
-      cloudSeenFrom<PointXYZ>(Eigen::Isometry3d::Identity(), first));
-  registration.setInputSource(cloudSeenFrom<PointXYZ>(truth, second));
-  Cloud aligned;
-  registration.align(aligned);
-  EXPECT_TRUE(registration.hasConverged());
-  return registration.getResult();
+  return alignSamples(registration, scene, truth, noise, random);
 }
 
 /** What is drawn anew many times. */
@@ -67,21 +78,13 @@ operator<<(std::ostream& stream, const Trial& trial)
 MatchResult
 alignToTheEnd(const Trial& trial, const Eigen::Isometry3d& truth, std::mt19937& random)
 {
-  const auto first = sampleScene(trial.scene, 8000, trial.noise, random);
-  const auto second = sampleScene(trial.scene, 4000, trial.noise, random);
   ScanRegistration<PointXYZ> registration;
   registration.setMetric(trial.metric);
   registration.setVoxelSize(trial.voxel_size);
   registration.setTransformationEpsilon(1e-12);
   registration.setMaximumIterations(300);
   registration.setNumberOfThreads(2);
-  registration.setInputTarget(
-      cloudSeenFrom<PointXYZ>(Eigen::Isometry3d::Identity(), first));
-  registration.setInputSource(cloudSeenFrom<PointXYZ>(truth, second));
-  Cloud aligned;
-  registration.align(aligned);
-  EXPECT_TRUE(registration.hasConverged());
-  return registration.getResult();
+  return alignSamples(registration, trial.scene, truth, trial.noise, random);
 }
 
 /** Sums over independent pairs of scans, with noise in both. */
