@@ -65,7 +65,7 @@ MatchPairs::nearestTo(const Eigen::Vector3d& place, const MatchPair& pair) const
   if (pair.found) {                      // no farther than the point it had is
     const double known = kMargin * (place - pair.target).norm();
     if (known < reach_)
-      if (const auto nearest = map_.nearest(place, known))
+      if (auto nearest = map_.nearest(place, known))
         return nearest;
   }
   return map_.nearest(place, reach_);
