@@ -37,7 +37,7 @@ GradientScatter::GradientScatter(const MatchPairs& pairs,
     cell.weight += weighted * jacobian;
   }
   for (std::size_t i = 0; i < cells_.size(); ++i)
-    for (int k = 0; k < 27; ++k) {
+    for (int k = 13; k < 27; ++k) { // itself, and one of each two opposite ones
       const Eigen::Vector3i step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
       const auto at = known.find(voxelKey(cells_[i].place + step));
       if (at != known.end())
@@ -57,7 +57,8 @@ GradientScatter::effectiveCount(const Eigen::MatrixXd& basis) const
     shares.push_back((inverse * (basis.transpose() * cell.weight * basis)).trace());
   double squares = 0.0;
   for (const Neighbours& both : neighbours_)
-    squares += both.weight * both.weight * shares[both.first] * shares[both.second];
+    squares += (both.first == both.second ? 1.0 : 2.0) * both.weight * both.weight *
+               shares[both.first] * shares[both.second];
   return std::pow(static_cast<double>(basis.cols()), 2) / squares;
 }
 
@@ -65,9 +66,13 @@ Eigen::MatrixXd
 GradientScatter::in(const Eigen::MatrixXd& basis) const
 {
   TangentMatrix scatter = TangentMatrix::Zero();
-  for (const Neighbours& both : neighbours_)
-    scatter += both.weight * cells_[both.first].gradient *
-               cells_[both.second].gradient.transpose();
+  for (const Neighbours& both : neighbours_) {
+    const TangentMatrix product = both.weight * cells_[both.first].gradient *
+                                  cells_[both.second].gradient.transpose();
+    scatter += product;
+    if (both.first != both.second)
+      scatter += product.transpose();
+  }
   // Parameters were fitted to the gradients' sum, and the mean of the inverse of an
   // estimated scatter is too large (Hotelling): both count with few cells only.
   const double count = effectiveCount(basis);

@@ -20,7 +20,7 @@ constexpr double kStep = 0.3;
 constexpr double kMinStep = 0.006;
 /** Differences are looked at for so many points; for fewer where planes hold most. */
 constexpr std::size_t kMostPoints = 4000;
-constexpr std::size_t kMostBesidePlanes = 500;
+constexpr std::size_t kMostBesidePlanes = 300;
 
 struct Sum {
   TangentMatrix matrix = TangentMatrix::Zero();
