@@ -98,13 +98,13 @@ constexpr double kUnsupportedVariance = 1e4;
  * where a point has moved. Directions without support keep their initial value.
  *
  * The covariance is the "sandwich" one: the scatter of the loss's gradient between the
- * inverses of its slope. Neighbouring points share the errors of a plane, so products of
- * gradients count with Bartlett's weights within four voxels (Conley, J. Econometrics
- * 92, 1999). Nearest points go along with a motion on their surface, so that the slope is
- * not Gauss and Newton's matrix: it is taken from differences, with pairs found anew. It
- * is that of the gradient's root; an iteration that ends early keeps something of its
- * guess, of which it knows nothing. Sums are taken in fixed chunks: same bits for any
- * number of threads.
+ * inverses of its slope. Neighbouring points share the errors of a plane, so products
+ * of gradients count with Bartlett's weights within four voxels (Conley, J.
+ * Econometrics 92, 1999). Nearest points go along with a motion on their surface, so
+ * that the slope is not Gauss and Newton's matrix: it is taken from differences, with
+ * pairs found anew. It is that of the gradient's root; an iteration that ends early
+ * keeps something of its guess, of which it knows nothing. Sums are taken in fixed
+ * chunks: same bits for any number of threads.
  *
  * \param[in] map target
  * \param[in] scan finite points

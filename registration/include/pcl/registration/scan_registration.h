@@ -21,9 +21,9 @@ namespace pcl {
  * setTransformationEpsilon() is, as there, the square of the smallest translation that
  * counts and setTransformationRotationEpsilon() the cosine of the smallest rotation.
  * setIndices() is respected, by align() and its output. Iterations are counted per map
- * (see setCoarserMaps()), and one that ends by their number has not converged, other than
- * in PCL. setEuclideanFitnessEpsilon(), the settings of RANSAC (a robust kernel does their
- * work), rejectors, estimators and search methods of the base are not used.
+ * (see setCoarserMaps()), and one that ends by their number has not converged, other
+ * than in PCL. setEuclideanFitnessEpsilon(), the settings of RANSAC (a robust kernel
+ * does their work), rejectors, estimators and search methods of the base are not used.
  *
  * What cannot be aligned (no points, no overlap, points without a surface, a guess that
  * is no rigid motion) is said by PCL_ERROR and hasConverged() is false; the pose stays
