@@ -84,30 +84,6 @@ ringScan(const Scene& scene,
   return points;
 }
 
-/** A depth camera of 160 x 120 pixels, in its own frame, z ahead; depths have noise of
- * \a noise at one metre that grows with the depth's square. */
-inline ScanPoints
-depthScan(const Scene& scene,
-          const Eigen::Isometry3d& pose,
-          double noise,
-          std::mt19937& random)
-{
-  constexpr double kFocal = 140.0;
-  std::normal_distribution<double> normal;
-  ScanPoints points;
-  for (int v = 0; v < 120; ++v)
-    for (int u = 0; u < 160; ++u) {
-      const Eigen::Vector3d pixel((u - 79.5) / kFocal, (v - 59.5) / kFocal, 1.0);
-      const double depth =
-          rayDistance(scene, pose.translation(), pose.linear() * pixel.normalized()) /
-          pixel.norm();
-      if (std::isfinite(depth))
-        points.emplace_back(
-            ((depth + noise * depth * depth * normal(random)) * pixel).cast<float>());
-    }
-  return points;
-}
-
 } // namespace test
 } // namespace nurbs
 } // namespace pcl
