@@ -11,8 +11,8 @@
 namespace pcl {
 namespace nurbs {
 
-/** Edges of a graph that survive: for each cell the directions of those that begin there
- * and of those that end there, as bits. The graph must outlive this. */
+/** Edges of a graph that survive: for each cell the directions of those that begin
+ * there and of those that end there, as bits. The graph must outlive this. */
 class KeptEdges {
 public:
   /** Keep what is neither of low weight nor over a depth jump.
