@@ -164,7 +164,8 @@ SensorNoise::estimate(const GridPoints& points, int threads)
   const auto [nearest, farthest] = std::minmax_element(depths.begin(), depths.end());
   std::vector<NoiseBin> bins = nurbs::sampleNoise(points, *nearest, *farthest, threads);
   const bool scattered = points.geometry.max_gap > 1 && points.geometry.row_v.empty();
-  const std::optional<SensorNoise> fitted = fitBins(bins, scattered ? kQuarter : kHalf, threads);
+  const std::optional<SensorNoise> fitted =
+      fitBins(bins, scattered ? kQuarter : kHalf, threads);
   if (fitted)
     return *fitted;
   return {0.001 * std::abs(quantile(depths, 0.5)), 0.0, 0.0};

@@ -183,7 +183,8 @@ CellFacets::cheapest(std::size_t cell) const
 {
   std::array<std::uint32_t, kMostNeighbours> around;
   std::size_t count = 0;
-  edges_.forEachNeighbour(cell, [&](std::size_t next) { around[count++] = facet_[next]; });
+  edges_.forEachNeighbour(cell,
+                          [&](std::size_t next) { around[count++] = facet_[next]; });
   std::uint32_t best = facet_[cell];
   double least = std::numeric_limits<double>::infinity();
   const ViewSample point = sample(cell);

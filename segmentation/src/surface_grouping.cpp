@@ -152,8 +152,7 @@ groupSurfacesAnd(SurfaceStages& stages,
   requireValid(points, graph, options);
   const std::vector<BlockSize> sizes = blockSizes(points);
   ViewChart chart(points, noise, graph, options.threads);
-  const double scale =
-      measureNoiseScale(points, chart, sizes.front(), options.threads);
+  const double scale = measureNoiseScale(points, chart, sizes.front(), options.threads);
   chart.scaleNoise(scale);
   chart.measureDirections(graph, options.threads);
   const KeptEdges edges(points,
