@@ -92,12 +92,9 @@ public:
       }
       visit(run);
     };
-    for (std::size_t cell = 0; cell < seen.size(); ++cell) {
-      const std::int32_t source = graph_.source(direction)[cell];
-      if (source == GridGraph::kNone ||
-          !keeps(direction, static_cast<std::size_t>(source)))
+    for (std::size_t cell = 0; cell < seen.size(); ++cell)
+      if (!isSet(end_[cell], direction))
         walk(cell);
-    }
     // What is left closes on itself over the seam of a grid that wraps.
     for (std::size_t cell = 0; cell < seen.size(); ++cell)
       if (seen[cell] == 0)

@@ -14,7 +14,7 @@ namespace nurbs {
 
 /** How depths of one range deviate from what their neighbours make expect. */
 struct NoiseBin {
-  std::vector<float> depths;
+  std::vector<float> depths; /**< where there are several bins */
   /** |Depth less that of the line of two neighbours|, divided by what unit noise makes
    * of it; along rows and along columns. */
   std::array<std::vector<float>, 2> deviations;

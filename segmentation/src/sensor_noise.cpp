@@ -118,6 +118,7 @@ fitBins(std::vector<NoiseBin>& bins, const Share& share, int threads)
     const std::size_t samples = bin.deviations[0].size();
     if (samples < kEnough)
       continue;
+    // Without depths it is the only bin, which says nothing about a slope.
     const double depth = bin.depths.empty() ? 0.0 : quantile(bin.depths, 0.5);
     const double sigma = sigmaOf(bin, spreads[k], excess);
     const Eigen::Vector2d row(1.0, depth * depth);

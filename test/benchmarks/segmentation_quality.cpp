@@ -57,10 +57,10 @@ Three labels of SynPEB (17, 18 and 19) are one plane, to 0.05 degrees and 2 mm, 
 parts that are seen of it. groupSurfaces joins parts of one surface behind an occluder,
 which these labels count as wrong; "parts apart" does not.
 
-On the street no method finds half of the surfaces; rings are offset against each other by
-3.5 cm there, as a real laser's, which presumably is a reason. VCCS recalls
-more of the borders there, as it cuts everything into small pieces; so do VCCS and
-RegionGrowing in the simulated room, with some 200 and 143 regions that are none.
+On the street no method finds half of the surfaces; rings are offset against each other
+by 3.5 cm there, as a real laser's, which presumably is a reason. VCCS recalls more of the
+borders there, as it cuts everything into small pieces; so do VCCS and RegionGrowing in
+the simulated room, with some 200 and 143 regions that are none.
 
 )";
 

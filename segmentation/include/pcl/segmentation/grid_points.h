@@ -55,7 +55,8 @@ GridPoints
 toGridPoints(const pcl::PointCloud<PointT>& cloud, const GridGeometry& geometry);
 
 /** \brief Fill \a depth from the coordinates and drop cells that are not finite or, in
- * a sensor's grid, not in front of the sensor.
+ * a sensor's grid, not in front of the sensor. The result does not depend on the number
+ * of threads.
  * \throws std::invalid_argument when sizes and geometry differ */
 PCL_NURBS_SEGMENTATION_EXPORT void
 completeGridPoints(GridPoints& points, int threads = 1);
