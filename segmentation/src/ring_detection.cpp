@@ -3,6 +3,8 @@
 
 #include "ring_detection.h"
 
+#include "ring_seam.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -21,14 +23,6 @@ median(std::vector<float>& values)
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-/** Azimuth in [0, turn), growing the way the laser turns. */
-float
-turned(float azimuth, float sense)
-{
-  const float angle = sense * azimuth;
-  return angle < 0.0F ? angle + kTurn : angle;
 }
 
 /** Signed azimuth steps from point to point. */
@@ -105,23 +99,21 @@ ringsFromOrder(const ChartList& charts)
       steps.begin(), steps.end(), [sense](float step) { return sense * step > 0.0F; });
   if (static_cast<std::size_t>(forward) * 10 < steps.size() * 7)
     return {};
+  const Sweep sweep = sweepOf(charts, sense);
+  if (sweep.turns > static_cast<std::int32_t>(kMostRings) + 1)
+    return {};
   Rings rings;
   rings.ring.assign(charts.size(), -1);
-  std::int32_t ring = 0;
-  float before = 0.0F;
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    if (!std::isfinite(charts[i].x()))
-      continue;
-    const float here = turned(charts[i].x(), sense);
-    if (before > 0.75F * kTurn && here < 0.25F * kTurn)
-      ++ring;
-    before = here;
-    rings.ring[i] = ring;
-  }
-  const auto count = static_cast<std::size_t>(ring) + 1;
-  if (count < kLeastRings || count > kMostRings)
+  const std::vector<std::size_t> starts = ringStarts(sweep);
+  if (starts.size() < kLeastRings || starts.size() > kMostRings)
     return {};
-  sortRings(charts, count, rings);
+  for (std::size_t ring = 0; ring < starts.size(); ++ring) {
+    const std::size_t end =
+        ring + 1 < starts.size() ? starts[ring + 1] : sweep.point.size();
+    for (std::size_t i = starts[ring]; i < end; ++i)
+      rings.ring[sweep.point[i]] = static_cast<std::int32_t>(ring);
+  }
+  sortRings(charts, starts.size(), rings);
   if (!isSteady(rings))
     return {};
   for (float& step : steps)

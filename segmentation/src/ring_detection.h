@@ -23,8 +23,8 @@ struct Rings {
   explicit operator bool() const { return !depression.empty(); }
 };
 
-/** Rings of a cloud stored ring by ring: each begins where the azimuth passes the
- * forward direction again. Empty when the order of the points says otherwise. */
+/** Rings of a cloud stored ring by ring, wherever they begin. Empty when the order of
+ * the points says otherwise. */
 Rings
 ringsFromOrder(const ChartList& spherical);
 

@@ -145,27 +145,74 @@ TEST(OrganizedInput, placesBetweenUnequalRowsAreInterpolated)
   EXPECT_NEAR(grid.chartOfCell(0.0, 0.5).y(), 0.3, 1e-15);
 }
 
-TEST(ScatteredInput, ringsInStoredOrderComeBack)
+/** Where a turning laser's rings begin, in degrees left of forward, and which way it
+ * turns. */
+struct Turn {
+  double seam;
+  double sense;
+};
+
+class RingsInStoredOrder : public testing::TestWithParam<Turn> {};
+
+TEST_P(RingsInStoredOrder, comeBack)
 {
-  // A laser that begins each ring where it looks forward, and drops some returns.
+  // Some returns are missing, some beams pass the seam early, and a beam looks a little
+  // up or down at near things, as one does that starts beside the sensor's centre.
   const GridGeometry truth = turningLaser(720, 32);
   std::mt19937 random(5);
   Cloud cloud;
+  std::vector<std::int32_t> row_of_point;
   for (int row = 0; row < 32; ++row)
-    for (int turn = 0; turn < 720; ++turn) {
+    for (int step = 0; step < 720; ++step) {
       if (random() % 10 == 0)
         continue;
-      const double column = 359.4 - turn; // counter-clockwise from forward
-      const Eigen::Vector3d ray = truth.direction(column, row);
+      const int degrees = (step / 2 + row % 3) % 360;
+      const double dip = degrees > 40 && degrees < 150 ? 0.4 : 0.0;
+      const double left = M_PI / 180.0 * GetParam().seam +
+                          GetParam().sense * (step + row % 3) * truth.step_u;
+      const double column = (left - truth.first_u) / truth.step_u;
+      const Eigen::Vector3d ray = truth.direction(column, row + dip);
       const Eigen::Vector3f point = (8.0 * ray).cast<float>();
+      cloud.emplace_back(point.x(), point.y(), point.z());
+      row_of_point.push_back(row);
+    }
+  CloudOrganizer<PointXYZ> organizer;
+  const Cloud output = organized(organizer, cloud);
+  ASSERT_EQ(output.height, 32U);
+  EXPECT_NEAR(output.width, 720.0, 8.0);
+  EXPECT_TRUE(organizer.getGeometry().wrap);
+  EXPECT_LT(organizer.getNumDropped(), cloud.size() / 50);
+  for (std::size_t cell = 0; cell < output.size(); ++cell) {
+    const std::int32_t point = organizer.getCellPoints()[cell];
+    if (point >= 0) {
+      ASSERT_EQ(row_of_point[static_cast<std::size_t>(point)],
+                static_cast<std::int32_t>(cell / output.width));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllAround,
+                         RingsInStoredOrder,
+                         testing::Values(Turn{0.0, -1.0},
+                                         Turn{0.0, 1.0},
+                                         Turn{77.7, 1.0},
+                                         Turn{180.0, -1.0},
+                                         Turn{-179.8, 1.0},
+                                         Turn{-120.3, -1.0}));
+
+TEST(ScatteredInput, ringsOfALaserThatLooksAheadComeBack)
+{
+  const GridGeometry truth = turningLaser(720, 32);
+  Cloud cloud;
+  for (int row = 0; row < 32; ++row)
+    for (int column = 260; column < 460; ++column) {
+      const Eigen::Vector3f point = (8.0 * truth.direction(column, row)).cast<float>();
       cloud.emplace_back(point.x(), point.y(), point.z());
     }
   CloudOrganizer<PointXYZ> organizer;
   const Cloud output = organized(organizer, cloud);
   EXPECT_EQ(output.height, 32U);
-  EXPECT_NEAR(output.width, 720.0, 8.0);
-  EXPECT_TRUE(organizer.getGeometry().wrap);
-  EXPECT_LT(organizer.getNumDropped(), cloud.size() / 50);
+  EXPECT_NEAR(output.width, 200.0, 4.0);
   expectFaithful(cloud, output, organizer);
 }
 
