@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace pcl {
@@ -48,10 +50,20 @@ public:
     sorted_.push_back(candidate);
   }
 
+  /** Sort what was added. Keys of one bucket are spread evenly over its width, so that
+   * bins of theirs leave little to be sorted. O(n) then, O(n log n) at worst. */
   void
   sort()
   {
-    std::sort(sorted_.begin(), sorted_.end());
+    constexpr std::size_t kFew = 16;
+    const auto [least, most] = std::minmax_element(
+        sorted_.begin(), sorted_.end(), [](const Candidate& a, const Candidate& b) {
+          return a.key < b.key;
+        });
+    if (sorted_.size() < kFew || !(least->key < most->key))
+      std::sort(sorted_.begin(), sorted_.end());
+    else
+      sortBins(spreadOverBins(least->key, most->key));
   }
 
   bool
@@ -86,6 +98,38 @@ public:
   }
 
 private:
+  /** Order by as many bins of equal width as there are candidates.
+   * \return where each bin ends */
+  const std::vector<std::uint32_t>&
+  spreadOverBins(double low, double high)
+  {
+    const std::size_t bins = sorted_.size();
+    const double per_key = static_cast<double>(bins - 1) / (high - low);
+    const auto bin_of = [&](const Candidate& candidate) {
+      return static_cast<std::size_t>((candidate.key - low) * per_key);
+    };
+    ends_.assign(bins + 1, 0);
+    for (const Candidate& candidate : sorted_)
+      ++ends_[bin_of(candidate) + 1];
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    spread_.resize(bins, {0.0, 0, 0});
+    for (const Candidate& candidate : sorted_)
+      spread_[ends_[bin_of(candidate)]++] = candidate;
+    sorted_.swap(spread_);
+    return ends_;
+  }
+
+  void
+  sortBins(const std::vector<std::uint32_t>& ends)
+  {
+    auto first = sorted_.begin();
+    for (const std::uint32_t end : ends) {
+      const auto last = sorted_.begin() + static_cast<std::ptrdiff_t>(end);
+      std::sort(first, last);
+      first = last;
+    }
+  }
+
   static Candidate
   takeLast(std::vector<Candidate>& candidates)
   {
@@ -96,6 +140,8 @@ private:
 
   std::vector<Candidate> sorted_; // the best last
   std::vector<Candidate> put_back_;
+  std::vector<Candidate> spread_;   // to spread over
+  std::vector<std::uint32_t> ends_; // of bins
 };
 
 } // namespace nurbs

@@ -3,6 +3,8 @@
 
 #include "edge_batch.h"
 
+#include "vector_clones.h"
+
 #include <cmath>
 #include <cstring>
 
@@ -40,7 +42,7 @@ shortened(float loop, float weight)
 
 } // namespace
 
-void
+PCL_NURBS_VECTOR_CLONES void
 EdgeBatch::boundGains()
 {
   for (std::size_t k = 0; k < kMost; ++k) {

@@ -160,10 +160,14 @@ ForestGreedy::orderOpened(std::size_t bucket)
       const QueuedEdge& edge = opened_[place];
       if (queue_.postpone(bucket, edge, boundOf(k)))
         continue;
-      const double key = gainOf(edge) + batch_.balance[k];
+      const double gain = gainOf(edge);
+      const double key = gain + batch_.balance[k];
       if (queue_.postpone(bucket, edge, key))
         continue;
-      rated_[place] = batch_.nodes[k];
+      rated_[place] = {batch_.nodes[k],
+                       nodes_[edges_.source(edge.number)].loop,
+                       nodes_[edge.target].loop,
+                       gain};
       order_.add({key, edge.number, place});
     }
   }
@@ -182,16 +186,20 @@ ForestGreedy::consider(std::size_t bucket, const Candidate& candidate)
   if (a == b)
     return;
   const std::uint32_t nodes = sizes_[a] + sizes_[b];
-  const double balance = balance_(sizes_[a], sizes_[b]);
-  if (rated_[place] == nodes)
-    return select(edge, candidate.key - balance);
-  const double gain = gainOf(edge);
-  if (queue_.postpone(bucket, edge, gain + balance))
+  Rating& rating = rated_[place];
+  if (rating.nodes == nodes)
+    return select(edge, rating.gain);
+  const double loop_a = nodes_[edges_.source(edge.number)].loop;
+  const double loop_b = nodes_[edge.target].loop;
+  if (rating.loop_a != loop_a || rating.loop_b != loop_b)
+    rating = {nodes, loop_a, loop_b, gainOf(edge)};
+  rating.nodes = nodes;
+  const double key = rating.gain + balance_(sizes_[a], sizes_[b]);
+  if (queue_.postpone(bucket, edge, key))
     return;
-  const Candidate again(gain + balance, edge.number, place);
+  const Candidate again(key, edge.number, place);
   if (order_.isBest(again))
-    return select(edge, gain);
-  rated_[place] = nodes;
+    return select(edge, rating.gain);
   order_.putBack(again);
 }
 

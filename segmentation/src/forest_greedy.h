@@ -80,6 +80,14 @@ private:
     std::uint32_t next = 0;  // in the ring of the group's nodes
   };
 
+  /** What the exact key of an edge depends on. */
+  struct Rating {
+    std::uint32_t nodes; // of both groups
+    double loop_a;
+    double loop_b;
+    double gain;
+  };
+
   double
   startLoops();
 
@@ -141,8 +149,8 @@ private:
   GroupBalance balance_;
   KeyBuckets queue_;
   EdgeBatch batch_{};
-  std::vector<QueuedEdge> opened_;   // edges of the open bucket, and for each the
-  std::vector<std::uint32_t> rated_; // sizes of both groups as of its exact key
+  std::vector<QueuedEdge> opened_; // edges of the open bucket, and for each
+  std::vector<Rating> rated_;      // what its exact key is of
   CandidateOrder order_;
   std::vector<std::uint32_t> selected_;
 };
