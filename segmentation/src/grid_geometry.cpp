@@ -103,16 +103,6 @@ GridGeometry::chart(const Eigen::Vector3d& point) const
   }
 }
 
-double
-GridGeometry::chartCoordinate(const Eigen::Vector3d& point, int axis) const
-{
-  if (projection != GridProjection::spherical)
-    return chart(point)(axis);
-  const Eigen::Vector3d local = frame * point;
-  return axis == 0 ? std::atan2(local.x(), local.z())
-                   : std::atan2(local.y(), std::hypot(local.x(), local.z()));
-}
-
 Eigen::Vector2d
 GridGeometry::cell(double u, double v) const
 {

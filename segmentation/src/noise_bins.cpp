@@ -21,6 +21,7 @@ public:
   NoiseSampler(const GridPoints& points, float nearest, float farthest)
       : points_(points),
         camera_(points.geometry.projection == GridProjection::perspective),
+        laser_(points.geometry.projection == GridProjection::spherical),
         inverse_(isInverseDepthGrid(points.geometry)),
         nearest_(nearest),
         scale_(kBins / std::max(farthest - nearest, 1e-6F)),
@@ -73,12 +74,12 @@ private:
       const std::size_t cell = first + k * stride;
       if (!points_.valid(cell))
         continue;
-      last = {last[1], last[2], {cell, k, coordinate(cell, direction), true}};
+      last = {last[1], last[2], {cell, k, placeOf(cell, direction), true}};
       if (!last[0].known || last[2].at - last[1].at > gap ||
           last[1].at - last[0].at > gap)
         continue;
-      const double whole = difference(last[0].where, last[2].where);
-      const double share = difference(last[0].where, last[1].where) / whole;
+      const double whole = difference(last[0].place, last[2].place);
+      const double share = difference(last[0].place, last[1].place) / whole;
       if (whole != 0.0 && share >= 0.0 && share <= 1.0)
         add(last[1].cell,
             last[0].cell,
@@ -91,27 +92,35 @@ private:
   struct Sample {
     std::size_t cell = 0;
     std::size_t at = 0;
-    double where = 0.0;
+    Eigen::Vector2d place = {0.0, 0.0};
     bool known = false;
   };
 
-  double
-  coordinate(std::size_t cell, int direction) const
+  /** Where a point is along the lines of a direction: legs of an angle for a laser,
+   * (0, coordinate) for others. */
+  Eigen::Vector2d
+  placeOf(std::size_t cell, int direction) const
   {
-    if (points_.geometry.projection == GridProjection::lattice)
-      return static_cast<double>(
-          direction == 0 ? cell % static_cast<std::size_t>(points_.geometry.width)
-                         : cell / static_cast<std::size_t>(points_.geometry.width));
-    return points_.geometry.chartCoordinate(points_.point(cell).cast<double>(),
-                                            direction);
+    const GridGeometry& grid = points_.geometry;
+    if (laser_) {
+      const Eigen::Vector3d local = grid.frame * points_.point(cell).cast<double>();
+      if (direction == 0)
+        return {local.z(), local.x()};
+      return {std::sqrt(local.x() * local.x() + local.z() * local.z()), local.y()};
+    }
+    const auto width = static_cast<std::size_t>(grid.width);
+    if (grid.projection == GridProjection::lattice)
+      return {0.0, static_cast<double>(direction == 0 ? cell % width : cell / width)};
+    return {0.0, grid.chart(points_.point(cell).cast<double>())(direction)};
   }
 
+  /** The tangent of an angle will do for the angle: neighbours are close. */
   double
-  difference(double from, double to) const
+  difference(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const
   {
-    const double step = to - from;
-    const bool over_seam = points_.geometry.wrap && std::abs(step) > M_PI;
-    return over_seam ? std::remainder(step, 2.0 * M_PI) : step;
+    if (!laser_)
+      return to.y() - from.y();
+    return (from.x() * to.y() - from.y() * to.x()) / from.dot(to);
   }
 
   /** Depth deviation of the middle of three samples from their common line; \a share is
@@ -149,6 +158,7 @@ private:
 
   const GridPoints& points_;
   bool camera_;
+  bool laser_;
   bool inverse_;
   float nearest_;
   float scale_;

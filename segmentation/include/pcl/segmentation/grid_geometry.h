@@ -80,10 +80,6 @@ struct PCL_NURBS_SEGMENTATION_EXPORT GridGeometry {
   Eigen::Vector3d
   chart(const Eigen::Vector3d& point) const;
 
-  /** \brief One coordinate of chart(): 0 is u, 1 is v. Cheaper where angles are. */
-  double
-  chartCoordinate(const Eigen::Vector3d& point, int axis) const;
-
   /** \brief Column and row, not rounded, where (u, v) lies. With unequal rows the row
    * is the one with the nearest angle. O(1), or O(log height) with unequal rows. */
   Eigen::Vector2d
