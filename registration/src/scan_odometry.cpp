@@ -68,6 +68,7 @@ OdometryOptions::rgbd()
   options.min_range = 0.1;
   options.max_range = 10.0;
   options.deskew = false;
+  options.calibrate_beams = false;
   options.map.voxel_size = 0.06;
   options.map.min_spacing = 0.012;
   options.map_spacing = 0.015;
@@ -84,7 +85,10 @@ OdometryOptions::rgbd()
 }
 
 ScanOdometry::ScanOdometry(const OdometryOptions& options)
-    : options_(options), map_(options.map), threshold_(options.threshold)
+    : options_(options),
+      map_(options.map),
+      calibration_(options.beams),
+      threshold_(options.threshold)
 {
   check(options);
   options_.match.threads = options.threads;
@@ -99,7 +103,9 @@ ScanOdometry::setKeyframeDecision(KeyframeDecision decision)
 }
 
 ScanPoints
-ScanOdometry::prepare(const ScanPoints& points, const std::vector<float>& times) const
+ScanOdometry::prepare(const ScanPoints& points,
+                      const std::vector<float>& times,
+                      Beams& beams) const
 {
   const auto nearest = static_cast<float>(options_.min_range * options_.min_range);
   const auto farthest = static_cast<float>(options_.max_range * options_.max_range);
@@ -116,9 +122,17 @@ ScanOdometry::prepare(const ScanPoints& points, const std::vector<float>& times)
   }
   if (options_.vertical_angle != 0.0)
     correctVerticalAngle(kept, options_.vertical_angle);
+  if (options_.calibrate_beams) {
+    beams = BeamCalibration::beamsOf(kept);
+    calibration_.correct(kept, beams);
+  }
   if (options_.deskew && !times.empty())
     deskew(kept, kept_times, velocity_, options_.reference_time, options_.threads);
-  return voxelSubsample(kept, options_.map_spacing);
+  const std::vector<std::size_t> some =
+      voxelSubsampleIndices(kept, options_.map_spacing);
+  if (options_.calibrate_beams)
+    beams = selected(beams, some);
+  return selected(kept, some);
 }
 
 OdometryResult
@@ -131,12 +145,13 @@ ScanOdometry::process(const ScanPoints& points,
   if (!(interval >= 0.0))
     throw std::invalid_argument("ScanOdometry: time does not run backwards");
   OdometryResult result;
-  result.points = prepare(points, times);
+  Beams beams;
+  result.points = prepare(points, times, beams);
   result.pose = pose_ * scaled(velocity_, std::min(interval, kLongestInterval));
   if (map_.empty())
     result.tracked = !result.points.empty();
   else
-    track(interval, result);
+    track(interval, beams, result);
   lost_ = result.tracked ? 0 : lost_ + 1;
   if (lost_ > kMostLost && !result.points.empty())
     map_.clear(), usual_share_ = 0.0;
@@ -148,18 +163,18 @@ ScanOdometry::process(const ScanPoints& points,
 }
 
 void
-ScanOdometry::track(double interval, OdometryResult& result)
+ScanOdometry::track(double interval, const Beams& beams, OdometryResult& result)
 {
   const Eigen::Isometry3d predicted = result.pose;
   result.threshold = threshold_.value();
   MatchOptions match = options_.match;
   match.max_distance = result.threshold;
+  const std::vector<std::size_t> some =
+      thinned(voxelSubsampleIndices(result.points, options_.match_spacing),
+              options_.max_match_points);
+  const ScanPoints scan = selected(result.points, some);
   ScanAlignment alignment =
-      alignScan(map_,
-                thinned(voxelSubsample(result.points, options_.match_spacing),
-                        options_.max_match_points),
-                {predicted, pose_, usual_share_},
-                match);
+      alignScan(map_, scan, {predicted, pose_, usual_share_}, match);
   result.match = std::move(alignment.match);
   result.searched = alignment.searched;
   const double share = result.match.inlier_share;
@@ -170,6 +185,9 @@ ScanOdometry::track(double interval, OdometryResult& result)
   usual_share_ += (usual_share_ > 0.0 ? kShareUpdate : 1.0) * (share - usual_share_);
   result.pose = result.match.pose;
   threshold_.addDeviation(predicted.inverse() * result.pose);
+  if (options_.calibrate_beams && result.match.degeneracy.unsupported == 0)
+    calibration_.learn(
+        map_, scan, selected(beams, some), result.pose, options_.threads);
   if (interval >= kShortestInterval)
     velocity_ = scaled(orthonormal(pose_.inverse() * result.pose), 1.0 / interval);
 }

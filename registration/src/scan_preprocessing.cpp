@@ -51,6 +51,20 @@ private:
   std::vector<std::uint64_t> table_;
 };
 
+template <typename Value>
+std::vector<Value>
+evenlyChosen(const std::vector<Value>& values, std::size_t most)
+{
+  if (values.size() <= most)
+    return values;
+  std::vector<Value> kept;
+  kept.reserve(most);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if ((i + 1) * most / values.size() > i * most / values.size())
+      kept.push_back(values[i]);
+  return kept;
+}
+
 /** Twice the median distance from the mean. */
 double
 extent(const ScanPoints& points)
@@ -83,32 +97,37 @@ flatShare(const VoxelMap& map, const ScanPoints& points)
 
 } // namespace
 
-ScanPoints
-voxelSubsample(const ScanPoints& points, double voxel_size)
+std::vector<std::size_t>
+voxelSubsampleIndices(const ScanPoints& points, double voxel_size)
 {
   if (!(voxel_size > 0.0))
     throw std::invalid_argument("voxelSubsample: the voxel size must be positive");
   KeySet seen(points.size());
-  ScanPoints kept;
-  for (const Eigen::Vector3f& point : points) {
-    const auto cell = voxelCell(point.cast<double>(), 1.0 / voxel_size);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto cell = voxelCell(points[i].cast<double>(), 1.0 / voxel_size);
     if (cell && seen.add(voxelKey(*cell)))
-      kept.push_back(point);
+      kept.push_back(i);
   }
   return kept;
 }
 
 ScanPoints
+voxelSubsample(const ScanPoints& points, double voxel_size)
+{
+  return selected(points, voxelSubsampleIndices(points, voxel_size));
+}
+
+ScanPoints
 thinned(const ScanPoints& points, std::size_t most)
 {
-  if (points.size() <= most)
-    return points;
-  ScanPoints kept;
-  kept.reserve(most);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if ((i + 1) * most / points.size() > i * most / points.size())
-      kept.push_back(points[i]);
-  return kept;
+  return evenlyChosen(points, most);
+}
+
+std::vector<std::size_t>
+thinned(const std::vector<std::size_t>& indices, std::size_t most)
+{
+  return evenlyChosen(indices, most);
 }
 
 double

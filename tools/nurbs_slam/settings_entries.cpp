@@ -85,6 +85,9 @@ addOdometry(SettingsTable& table, SlamSettings& s)
   table.add("odometry.min_range", &o.min_range, "nearer points are dropped, metres");
   table.add("odometry.max_range", &o.max_range, "farther points are dropped, metres");
   table.add("odometry.deskew", &o.deskew, "undo the motion within a scan");
+  table.add("odometry.calibrate_beams",
+            &o.calibrate_beams,
+            "learn and take out what the calibration of a turning laser left");
   table.add("odometry.map_spacing", &o.map_spacing, "of points in the map, metres");
   table.add("odometry.match_spacing", &o.match_spacing, "of matched points, metres");
   table.add("odometry.voxel_size", &o.map.voxel_size, "of the local map, metres");

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <pcl/registration/beam_calibration.h>
 #include <pcl/registration/motion_threshold.h>
 #include <pcl/registration/scan_matching.h>
 
@@ -25,6 +26,10 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   bool deskew = true;
   /** Moment of the scan, 0 .. 1, that its pose is for. */
   double reference_time = 0.5;
+  /** Learn, and take out, what the calibration of a turning laser left (z up in the
+   * sensor's frame). */
+  bool calibrate_beams = true;
+  BeamCalibrationOptions beams;
   /** Local map. */
   VoxelMapOptions map;
   /** One point of the scan per voxel of this size goes into the map ... */
@@ -116,12 +121,24 @@ public:
   std::vector<Eigen::Vector3d>
   localMap() const;
 
+  /** \brief What has been learnt about the sensor's beams. */
+  const BeamCalibration&
+  beamCalibration() const
+  {
+    return calibration_;
+  }
+
 private:
+  using Beams = std::vector<BeamCalibration::Beam>;
+
+  /** \param[out] beams of the points, as far as they are calibrated */
   ScanPoints
-  prepare(const ScanPoints& points, const std::vector<float>& times) const;
+  prepare(const ScanPoints& points,
+          const std::vector<float>& times,
+          Beams& beams) const;
 
   void
-  track(double interval, OdometryResult& result);
+  track(double interval, const Beams& beams, OdometryResult& result);
 
   void
   insert(const OdometryResult& result);
@@ -135,6 +152,7 @@ private:
   OdometryOptions options_;
   KeyframeDecision decision_; // by way and angle if there is none
   VoxelMap map_;
+  BeamCalibration calibration_;
   MotionThreshold threshold_;
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d velocity_ = Eigen::Isometry3d::Identity(); // per unit of time
