@@ -211,17 +211,23 @@ void
 VoxelMap::scanBricks(const Eigen::Vector3d& place, Candidate& best) const
 {
   const double edge = VoxelBricks::kEdge * options_.voxel_size;
+  const auto brick_at = [&](const Eigen::Array3d& where) -> Cell {
+    return (where / edge).floor().cast<int>();
+  };
+  // What the brick of the place itself holds leaves little to look for in others.
+  const Cell own = brick_at(place);
+  scanBrick(own, place, best);
   const Eigen::Array3d reach =
       Eigen::Array3d::Constant(std::sqrt(static_cast<double>(best.square)));
-  const Cell first = ((place.array() - reach) / edge).floor().cast<int>();
-  const Cell last = ((place.array() + reach) / edge).floor().cast<int>();
+  const Cell first = brick_at(place.array() - reach);
+  const Cell last = brick_at(place.array() + reach);
   for (int x = first.x(); x <= last.x(); ++x)
     for (int y = first.y(); y <= last.y(); ++y)
       for (int z = first.z(); z <= last.z(); ++z) {
-        const Eigen::Vector3d middle =
-            edge * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
-        if (squareToCube(place - middle, edge) < best.square)
-          scanBrick({x, y, z}, place, best);
+        const Cell brick(x, y, z);
+        const Eigen::Vector3d middle = edge * (brick.cast<double>().array() + 0.5);
+        if (brick != own && squareToCube(place - middle, edge) < best.square)
+          scanBrick(brick, place, best);
       }
 }
 
