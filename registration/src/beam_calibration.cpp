@@ -21,7 +21,8 @@ constexpr std::size_t kBeams = 1146;
 BeamCalibration::Beam
 beamAt(double sine)
 {
-  const double place = (0.5 * sine + 0.5) * kBeams;
+  const double known = std::isfinite(sine) ? sine : 0.0;
+  const double place = (0.5 * known + 0.5) * kBeams;
   return static_cast<BeamCalibration::Beam>(
       std::clamp(place, 0.0, static_cast<double>(kBeams - 1)));
 }
@@ -30,12 +31,15 @@ beamAt(double sine)
 Eigen::Matrix3d
 errorDirections(const Eigen::Vector3d& point)
 {
+  const double range = point.norm();
   const double level = point.head<2>().norm();
   Eigen::Matrix3d directions = Eigen::Matrix3d::Zero();
+  if (!(range > 0.0 && std::isfinite(range)))
+    return directions;
+  directions.col(0) = point / range;
   if (!(level > 0.0)) // straight up or down angles mean nothing
     return directions;
   const double steepness = point.z() / level;
-  directions.col(0) = point / point.norm();
   directions.col(1) << -steepness * point.x(), -steepness * point.y(), level;
   directions.col(2) << -point.y(), point.x(), 0.0;
   return directions;
@@ -49,11 +53,11 @@ struct Residual {
 
 std::optional<Residual>
 residualOf(const VoxelMap& map,
-           const Eigen::Vector3d& point,
-           const Eigen::Isometry3d& pose,
+           const Eigen::Vector3d& place,
+           const Eigen::Vector3d& measured,
+           const Eigen::Matrix3d& rotation,
            double most)
 {
-  const Eigen::Vector3d place = pose * point;
   const auto nearest = map.nearest(place, map.options().voxel_size);
   if (!nearest)
     return std::nullopt;
@@ -61,8 +65,18 @@ residualOf(const VoxelMap& map,
   const double distance = surface.normal.dot(place - surface.mean);
   if (!surface.flat() || !(std::abs(distance) <= most))
     return std::nullopt;
-  const Eigen::Vector3d normal = pose.linear().transpose() * surface.normal;
-  return Residual{distance, errorDirections(point).transpose() * normal};
+  // What the sensor turns within a scan hardly changes the directions.
+  const Eigen::Vector3d normal = rotation.transpose() * surface.normal;
+  return Residual{distance, errorDirections(measured).transpose() * normal};
+}
+
+/** Inverse variances of what is expected. */
+Eigen::Vector3d
+priorOf(const BeamError& expected)
+{
+  return Eigen::Array3d(expected.range, expected.elevation, expected.azimuth)
+      .square()
+      .inverse();
 }
 
 void
@@ -75,10 +89,18 @@ check(const BeamCalibrationOptions& options)
                              options.residual_deviation,
                              options.max_residual,
                              options.memory})
-    if (!(value > 0.0))
+    if (!(value > 1e-12 && value < 1e12))
       throw std::invalid_argument("BeamCalibration: deviations must be positive");
   if (!(options.way >= 0.0))
     throw std::invalid_argument("BeamCalibration: the way must not be negative");
+}
+
+void
+check(const ScanPoints& points, const std::vector<BeamCalibration::Beam>& beams)
+{
+  if (beams.size() != points.size() ||
+      std::any_of(beams.begin(), beams.end(), [](auto beam) { return beam >= kBeams; }))
+    throw std::invalid_argument("BeamCalibration: one beam per point is needed");
 }
 
 } // namespace
@@ -87,10 +109,7 @@ BeamCalibration::BeamCalibration(const BeamCalibrationOptions& options)
     : options_(options), beams_(kBeams)
 {
   check(options);
-  const BeamError& expected = options.expected;
-  prior_ = Eigen::Array3d(expected.range, expected.elevation, expected.azimuth)
-               .square()
-               .inverse();
+  prior_ = priorOf(options.expected);
 }
 
 std::vector<BeamCalibration::Beam>
@@ -106,6 +125,7 @@ BeamCalibration::beamsOf(const ScanPoints& points)
 void
 BeamCalibration::correct(ScanPoints& points, const std::vector<Beam>& beams) const
 {
+  check(points, beams);
   for (std::size_t i = 0; any_ && i < points.size(); ++i) {
     const Eigen::Vector3d point = points[i].cast<double>();
     points[i] = (point - errorDirections(point) * beams_[beams[i]].error).cast<float>();
@@ -115,24 +135,35 @@ BeamCalibration::correct(ScanPoints& points, const std::vector<Beam>& beams) con
 void
 BeamCalibration::learn(const VoxelMap& map,
                        const ScanPoints& points,
+                       const ScanPoints& measured,
                        const std::vector<Beam>& beams,
                        const Eigen::Isometry3d& pose,
                        int threads)
 {
-  if (beams.size() != points.size())
-    throw std::invalid_argument("BeamCalibration: one beam per point is needed");
-  if (any_ && (pose.translation() - learned_at_).norm() < options_.way)
+  check(measured, beams);
+  if (points.size() != measured.size() || threads < 1)
+    throw std::invalid_argument("BeamCalibration: one measured point per point, and at "
+                                "least one thread, are needed");
+  const double way = (pose.translation() - learned_at_).norm();
+  if (!pose.matrix().allFinite() || (any_ && way < options_.way))
     return;
-  learned_at_ = pose.translation();
-  any_ = true;
-  forgetSome();
   std::vector<std::optional<Residual>> residuals(points.size());
   forChunks(
       points.size(), threads, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
-          residuals[i] =
-              residualOf(map, points[i].cast<double>(), pose, options_.max_residual);
+          residuals[i] = residualOf(map,
+                                    pose * points[i].cast<double>(),
+                                    measured[i].cast<double>(),
+                                    pose.linear(),
+                                    options_.max_residual);
       });
+  if (std::none_of(residuals.begin(), residuals.end(), [](const auto& residual) {
+        return residual.has_value();
+      }))
+    return;
+  learned_at_ = pose.translation();
+  any_ = true;
+  forgetSome();
   const double weight = std::pow(options_.residual_deviation, -2);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!residuals[i])
@@ -143,7 +174,6 @@ BeamCalibration::learn(const VoxelMap& map,
     const double whole = residuals[i]->distance + slope.dot(beam.error);
     beam.matrix += weight * slope * slope.transpose();
     beam.right += weight * whole * slope;
-    beam.any = true;
   }
   solve();
 }
@@ -161,22 +191,25 @@ BeamCalibration::forgetSome()
 void
 BeamCalibration::solve()
 {
-  // A beam counts for the mean as much as its error is known.
+  // How much of a beam's error is known, from 0 to 1, says how much it counts for what
+  // all have in common, and how much of that is taken out of it.
+  const auto known = [this](const Learned& beam) -> Eigen::Vector3d {
+    const Eigen::Vector3d information = beam.matrix.diagonal();
+    return information.cwiseQuotient(information + prior_);
+  };
+  const Eigen::Matrix3d prior = prior_.asDiagonal();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Vector3d weights = Eigen::Vector3d::Constant(1e-12);
+  Eigen::Vector3d squares = Eigen::Vector3d::Constant(1e-12);
   for (Learned& beam : beams_) {
-    if (!beam.any)
+    if (beam.matrix.isZero(0.0))
       continue;
-    const Eigen::Vector3d known = beam.matrix.diagonal();
-    const Eigen::Vector3d weight = known.cwiseQuotient(known + prior_);
-    const Eigen::Matrix3d prior = prior_.asDiagonal();
     beam.error = (beam.matrix + prior).ldlt().solve(beam.right);
-    sum += weight.cwiseProduct(beam.error);
-    weights += weight;
+    sum += known(beam).cwiseProduct(beam.error);
+    squares += known(beam).cwiseAbs2();
   }
+  const Eigen::Vector3d common = sum.cwiseQuotient(squares);
   for (Learned& beam : beams_)
-    if (beam.any)
-      beam.error -= sum.cwiseQuotient(weights);
+    beam.error -= known(beam).cwiseProduct(common);
 }
 
 BeamError

@@ -4,6 +4,7 @@
 #include <pcl/registration/scan_odometry.h>
 #include <pcl/registration/scan_preprocessing.h>
 
+#include "point_selection.h"
 #include "scan_alignment.h"
 
 #include <algorithm>
@@ -105,7 +106,7 @@ ScanOdometry::setKeyframeDecision(KeyframeDecision decision)
 ScanPoints
 ScanOdometry::prepare(const ScanPoints& points,
                       const std::vector<float>& times,
-                      Beams& beams) const
+                      Readings& readings) const
 {
   const auto nearest = static_cast<float>(options_.min_range * options_.min_range);
   const auto farthest = static_cast<float>(options_.max_range * options_.max_range);
@@ -123,15 +124,16 @@ ScanOdometry::prepare(const ScanPoints& points,
   if (options_.vertical_angle != 0.0)
     correctVerticalAngle(kept, options_.vertical_angle);
   if (options_.calibrate_beams) {
-    beams = BeamCalibration::beamsOf(kept);
-    calibration_.correct(kept, beams);
+    readings.beams = BeamCalibration::beamsOf(kept);
+    calibration_.correct(kept, readings.beams);
+    readings.points = kept;
   }
   if (options_.deskew && !times.empty())
     deskew(kept, kept_times, velocity_, options_.reference_time, options_.threads);
   const std::vector<std::size_t> some =
       voxelSubsampleIndices(kept, options_.map_spacing);
   if (options_.calibrate_beams)
-    beams = selected(beams, some);
+    readings = {selected(readings.points, some), selected(readings.beams, some)};
   return selected(kept, some);
 }
 
@@ -145,13 +147,13 @@ ScanOdometry::process(const ScanPoints& points,
   if (!(interval >= 0.0))
     throw std::invalid_argument("ScanOdometry: time does not run backwards");
   OdometryResult result;
-  Beams beams;
-  result.points = prepare(points, times, beams);
+  Readings readings;
+  result.points = prepare(points, times, readings);
   result.pose = pose_ * scaled(velocity_, std::min(interval, kLongestInterval));
   if (map_.empty())
     result.tracked = !result.points.empty();
   else
-    track(interval, beams, result);
+    track(interval, readings, result);
   lost_ = result.tracked ? 0 : lost_ + 1;
   if (lost_ > kMostLost && !result.points.empty())
     map_.clear(), usual_share_ = 0.0;
@@ -163,15 +165,15 @@ ScanOdometry::process(const ScanPoints& points,
 }
 
 void
-ScanOdometry::track(double interval, const Beams& beams, OdometryResult& result)
+ScanOdometry::track(double interval, const Readings& readings, OdometryResult& result)
 {
   const Eigen::Isometry3d predicted = result.pose;
   result.threshold = threshold_.value();
   MatchOptions match = options_.match;
   match.max_distance = result.threshold;
   const std::vector<std::size_t> some =
-      thinned(voxelSubsampleIndices(result.points, options_.match_spacing),
-              options_.max_match_points);
+      evenlyChosen(voxelSubsampleIndices(result.points, options_.match_spacing),
+                   options_.max_match_points);
   const ScanPoints scan = selected(result.points, some);
   ScanAlignment alignment =
       alignScan(map_, scan, {predicted, pose_, usual_share_}, match);
@@ -186,8 +188,12 @@ ScanOdometry::track(double interval, const Beams& beams, OdometryResult& result)
   result.pose = result.match.pose;
   threshold_.addDeviation(predicted.inverse() * result.pose);
   if (options_.calibrate_beams && result.match.degeneracy.unsupported == 0)
-    calibration_.learn(
-        map_, scan, selected(beams, some), result.pose, options_.threads);
+    calibration_.learn(map_,
+                       scan,
+                       selected(readings.points, some),
+                       selected(readings.beams, some),
+                       result.pose,
+                       options_.threads);
   if (interval >= kShortestInterval)
     velocity_ = scaled(orthonormal(pose_.inverse() * result.pose), 1.0 / interval);
 }

@@ -5,6 +5,7 @@
 
 #include "chunked_sum.h"
 #include "local_surface.h"
+#include "point_selection.h"
 #include "voxel_key.h"
 
 #include <algorithm>
@@ -50,20 +51,6 @@ private:
   static constexpr std::uint64_t kNone = ~std::uint64_t{0}; // keys have 63 bits
   std::vector<std::uint64_t> table_;
 };
-
-template <typename Value>
-std::vector<Value>
-evenlyChosen(const std::vector<Value>& values, std::size_t most)
-{
-  if (values.size() <= most)
-    return values;
-  std::vector<Value> kept;
-  kept.reserve(most);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if ((i + 1) * most / values.size() > i * most / values.size())
-      kept.push_back(values[i]);
-  return kept;
-}
 
 /** Twice the median distance from the mean. */
 double
@@ -122,12 +109,6 @@ ScanPoints
 thinned(const ScanPoints& points, std::size_t most)
 {
   return evenlyChosen(points, most);
-}
-
-std::vector<std::size_t>
-thinned(const std::vector<std::size_t>& indices, std::size_t most)
-{
-  return evenlyChosen(indices, most);
 }
 
 double

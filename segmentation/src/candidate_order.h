@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -56,11 +57,15 @@ public:
   sort()
   {
     constexpr std::size_t kFew = 16;
+    constexpr double kNarrow = 1e-200; // its inverse is finite
+    if (sorted_.empty())
+      return;
     const auto [least, most] = std::minmax_element(
         sorted_.begin(), sorted_.end(), [](const Candidate& a, const Candidate& b) {
           return a.key < b.key;
         });
-    if (sorted_.size() < kFew || !(least->key < most->key))
+    const double width = most->key - least->key;
+    if (sorted_.size() < kFew || !(width > kNarrow && std::isfinite(width)))
       std::sort(sorted_.begin(), sorted_.end());
     else
       sortBins(spreadOverBins(least->key, most->key));
@@ -106,7 +111,8 @@ private:
     const std::size_t bins = sorted_.size();
     const double per_key = static_cast<double>(bins - 1) / (high - low);
     const auto bin_of = [&](const Candidate& candidate) {
-      return static_cast<std::size_t>((candidate.key - low) * per_key);
+      return std::min(static_cast<std::size_t>((candidate.key - low) * per_key),
+                      bins - 1);
     };
     ends_.assign(bins + 1, 0);
     for (const Candidate& candidate : sorted_)

@@ -80,7 +80,7 @@ private:
     std::uint32_t next = 0;  // in the ring of the group's nodes
   };
 
-  /** What the exact key of an edge depends on. */
+  /** An exact gain, and what it and the balance were found from. */
   struct Rating {
     std::uint32_t nodes; // of both groups
     double loop_a;
@@ -150,7 +150,7 @@ private:
   KeyBuckets queue_;
   EdgeBatch batch_{};
   std::vector<QueuedEdge> opened_; // edges of the open bucket, and for each
-  std::vector<Rating> rated_;      // what its exact key is of
+  std::vector<Rating> rated_;      // its last exact rating
   CandidateOrder order_;
   std::vector<std::uint32_t> selected_;
 };

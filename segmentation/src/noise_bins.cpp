@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace pcl {
@@ -114,13 +115,16 @@ private:
     return {0.0, grid.chart(points_.point(cell).cast<double>())(direction)};
   }
 
-  /** The tangent of an angle will do for the angle: neighbours are close. */
+  /** The tangent of an angle will do for the angle: neighbours are close. NaN for those
+   * that are not. */
   double
   difference(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const
   {
     if (!laser_)
       return to.y() - from.y();
-    return (from.x() * to.y() - from.y() * to.x()) / from.dot(to);
+    const double cosine = from.dot(to);
+    return cosine > 0.0 ? (from.x() * to.y() - from.y() * to.x()) / cosine
+                        : std::numeric_limits<double>::quiet_NaN();
   }
 
   /** Depth deviation of the middle of three samples from their common line; \a share is

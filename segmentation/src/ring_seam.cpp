@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto kPi = static_cast<float>(M_PI);
 constexpr float kTurn = 2.0F * kPi;
-constexpr float kTremble = kPi / 4.0F;    // no laser turns back so far
+constexpr float kTremble = kPi / 18.0F;   // no laser turns back so far
 constexpr float kSeamWidth = kPi / 90.0F; // beams pass the seam this early or late
 constexpr float kMostStep = kPi / 180.0F; // between neighbouring rings
 constexpr std::size_t kBins = 360;        // of azimuth
@@ -120,6 +120,8 @@ ringStarts(const Sweep& sweep)
   for (std::size_t i = 1; i < size; ++i)
     if (ring_of(i) > ring_of(passes.back()))
       passes.push_back(i);
+  if (seam.rise == 0.0F)
+    return passes;
   // A step worth moving a start for is half of what rings are apart on average.
   const float apart = seam.rise / static_cast<float>(passes.size());
   const auto rise = [&](std::size_t i) { return beamStep(sweep, i) / apart; };

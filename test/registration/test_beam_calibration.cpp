@@ -98,8 +98,7 @@ drive(const std::vector<BeamError>& errors,
     ScanPoints points = faultyScan(street(), poseAt(i), errors, random);
     const auto beams = BeamCalibration::beamsOf(points);
     calibration.correct(points, beams);
-    if (i > 0)
-      calibration.learn(map, points, beams, poseAt(i), threads);
+    calibration.learn(map, points, points, beams, poseAt(i), threads);
     for (const Eigen::Vector3f& point : points)
       map.insert(poseAt(i) * point.cast<double>());
   }
@@ -153,6 +152,34 @@ TEST(BeamCalibration, odometryLearnsOnItsWay)
   EXPECT_EQ(shareLeft(as_is.beamCalibration(), errors)[0], 1.0);
 }
 
+TEST(BeamCalibration, errorsAreAlongTheRaysThatWereMeasured)
+{
+  // The same drive seen from a sensor that was two metres to the left of the poses:
+  // what is learnt depends on where points were measured from, not on the frame they
+  // are in.
+  const std::vector<BeamError> errors = plantedErrors(1.0);
+  const Eigen::Translation3d aside(0.0, -2.0, 0.0);
+  BeamCalibration calibration;
+  VoxelMap map;
+  std::mt19937 random(3);
+  for (int i = 0; i < 20; ++i) {
+    ScanPoints measured = faultyScan(street(), poseAt(i), errors, random);
+    const auto beams = BeamCalibration::beamsOf(measured);
+    calibration.correct(measured, beams);
+    ScanPoints points;
+    for (const Eigen::Vector3f& point : measured)
+      points.emplace_back((aside.inverse() * point.cast<double>()).cast<float>());
+    calibration.learn(map, points, measured, beams, poseAt(i) * aside);
+    for (const Eigen::Vector3f& point : measured)
+      map.insert(poseAt(i) * point.cast<double>());
+  }
+  const BeamCalibration direct = drive(errors, 20);
+  for (int beam = 0; beam < kBeams; ++beam)
+    EXPECT_NEAR(calibration.error(elevationOf(beam)).range,
+                direct.error(elevationOf(beam)).range,
+                1e-4);
+}
+
 TEST(BeamCalibration, goodBeamsStayAsTheyAre)
 {
   const BeamCalibration calibration = drive(plantedErrors(0.0), 50);
@@ -181,48 +208,124 @@ TEST(BeamCalibration, correctingTakesOutWhatIsKnown)
   EXPECT_NEAR(std::atan2(p.y(), p.x()), 0.7 - error.azimuth, 1e-5);
 }
 
+TEST(BeamCalibration, moreIsLearntWhenMoreIsExpected)
+{
+  const std::vector<BeamError> errors = plantedErrors(1.0);
+  BeamCalibrationOptions shy;
+  shy.expected.range = 1e-3;
+  EXPECT_GT(shareLeft(drive(errors, 20, 2, shy), errors)[0],
+            2.0 * shareLeft(drive(errors, 20), errors)[0]);
+}
+
 TEST(BeamCalibration, learnsTheSameWithAnyNumberOfThreads)
 {
-  const BeamCalibration one = drive(plantedErrors(1.0), 6, 1);
-  const BeamCalibration three = drive(plantedErrors(1.0), 6, 3);
+  const std::vector<BeamError> errors = plantedErrors(1.0);
+  const BeamCalibration one = drive(errors, 6, 1);
+  const BeamCalibration three = drive(errors, 6, 3);
   for (int beam = 0; beam < kBeams; ++beam) {
-    EXPECT_EQ(one.error(elevationOf(beam)).range, three.error(elevationOf(beam)).range);
-    EXPECT_EQ(one.error(elevationOf(beam)).azimuth,
-              three.error(elevationOf(beam)).azimuth);
+    const double elevation =
+        elevationOf(beam) + errors[static_cast<std::size_t>(beam)].elevation;
+    EXPECT_NE(one.error(elevation).range, 0.0);
+    EXPECT_EQ(one.error(elevation).range, three.error(elevation).range);
+    EXPECT_EQ(one.error(elevation).elevation, three.error(elevation).elevation);
+    EXPECT_EQ(one.error(elevation).azimuth, three.error(elevation).azimuth);
   }
 }
 
+/** The street as one scan saw it, and another scan from the same place. */
+struct Place {
+  std::vector<BeamError> errors = plantedErrors(1.0);
+  VoxelMap map;
+  ScanPoints points;
+  std::vector<BeamCalibration::Beam> beams;
+
+  Place()
+  {
+    std::mt19937 random(3);
+    for (const Eigen::Vector3f& point : faultyScan(street(), poseAt(0), errors, random))
+      map.insert(poseAt(0) * point.cast<double>());
+    points = faultyScan(street(), poseAt(0), errors, random);
+    beams = BeamCalibration::beamsOf(points);
+  }
+
+  double
+  rangeError(const BeamCalibration& calibration) const
+  {
+    return calibration.error(elevationOf(12) + errors[12].elevation).range;
+  }
+};
+
 TEST(BeamCalibration, learnsNothingWhileItStands)
 {
-  std::mt19937 random(3);
-  const std::vector<BeamError> errors = plantedErrors(1.0);
-  VoxelMap map;
-  for (const Eigen::Vector3f& point : faultyScan(street(), poseAt(0), errors, random))
-    map.insert(poseAt(0) * point.cast<double>());
+  const Place place;
   BeamCalibration calibration;
-  const ScanPoints points = faultyScan(street(), poseAt(0), errors, random);
-  const auto beams = BeamCalibration::beamsOf(points);
-  calibration.learn(map, points, beams, poseAt(0));
-  const double once = calibration.error(elevationOf(12)).range;
-  calibration.learn(map, points, beams, poseAt(0));
-  EXPECT_EQ(calibration.error(elevationOf(12)).range, once);
+  calibration.learn(place.map, place.points, place.points, place.beams, poseAt(0));
+  const double once = place.rangeError(calibration);
+  EXPECT_NE(once, 0.0);
+  calibration.learn(place.map, place.points, place.points, place.beams, poseAt(0));
+  EXPECT_EQ(place.rangeError(calibration), once);
+  BeamCalibrationOptions options;
+  options.way = 0.0;
+  BeamCalibration always(options);
+  for (int i = 0; i < 2; ++i)
+    always.learn(place.map, place.points, place.points, place.beams, poseAt(0));
+  EXPECT_NE(place.rangeError(always), once);
+}
+
+TEST(BeamCalibration, whatMatchesNothingTeachesNothing)
+{
+  const Place place;
+  Eigen::Isometry3d nowhere = poseAt(0);
+  nowhere.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  BeamCalibration calibration;
+  calibration.learn(VoxelMap(), place.points, place.points, place.beams, poseAt(0));
+  calibration.learn(place.map, place.points, place.points, place.beams, nowhere);
+  calibration.learn(place.map, {}, {}, {}, poseAt(0));
+  EXPECT_EQ(place.rangeError(calibration), 0.0);
+  // Nor is the place taken for one that was learnt from.
+  calibration.learn(place.map, place.points, place.points, place.beams, poseAt(0));
+  EXPECT_NE(place.rangeError(calibration), 0.0);
 }
 
 TEST(BeamCalibration, oddPointsDoNoHarm)
 {
-  BeamCalibration calibration;
-  VoxelMap map;
-  ScanPoints points{{0, 0, 0}, {0, 0, 5}, {0, 0, -5}, {3, 0, 0}};
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  BeamCalibration calibration = drive(plantedErrors(1.0), 6);
+  ScanPoints points{{0, 0, 0}, {0, 0, 5}, {0, 0, -5}, {nan, 0, 0}};
   const auto beams = BeamCalibration::beamsOf(points);
-  for (const Eigen::Vector3f& point : points)
-    map.insert(point.cast<double>());
-  calibration.learn(map, points, beams, Eigen::Isometry3d::Identity());
   const ScanPoints before = points;
   calibration.correct(points, beams);
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(points[i], before[i]);
-  EXPECT_THROW(calibration.learn(map, points, {}, Eigen::Isometry3d::Identity()),
+  EXPECT_FALSE(points[3].allFinite());
+  VoxelMap map;
+  for (float x = -1.0F; x < 1.0F; x += 0.1F)
+    for (float y = -1.0F; y < 1.0F; y += 0.1F)
+      map.insert({x, y, 0.0});
+  calibration.learn(map, points, points, beams, Eigen::Isometry3d::Identity());
+  for (int beam = 0; beam < kBeams; ++beam)
+    EXPECT_TRUE(std::isfinite(calibration.error(elevationOf(beam)).range));
+  EXPECT_EQ(calibration.error(std::numeric_limits<double>::quiet_NaN()).range,
+            calibration.error(0.0).range);
+}
+
+TEST(BeamCalibration, beamsThatAreNotOfThePointsAreRefused)
+{
+  Place place;
+  BeamCalibration calibration;
+  const auto pose = poseAt(0);
+  const ScanPoints& points = place.points;
+  const std::vector<BeamCalibration::Beam> wild(points.size(), 60000);
+  EXPECT_THROW(calibration.learn(place.map, points, points, {}, pose),
                std::invalid_argument);
+  EXPECT_THROW(calibration.learn(place.map, points, points, wild, pose),
+               std::invalid_argument);
+  EXPECT_THROW(calibration.learn(place.map, points, {}, {}, pose),
+               std::invalid_argument);
+  EXPECT_THROW(calibration.learn(place.map, points, points, place.beams, pose, 0),
+               std::invalid_argument);
+  EXPECT_THROW(calibration.correct(place.points, {}), std::invalid_argument);
+  EXPECT_THROW(calibration.correct(place.points, wild), std::invalid_argument);
 }
 
 TEST(BeamCalibration, optionsThatMakeNoSenseAreRefused)
@@ -232,6 +335,12 @@ TEST(BeamCalibration, optionsThatMakeNoSenseAreRefused)
   EXPECT_THROW(BeamCalibration{options}, std::invalid_argument);
   options = {};
   options.expected.azimuth = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(BeamCalibration{options}, std::invalid_argument);
+  options = {};
+  options.expected.range = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(BeamCalibration{options}, std::invalid_argument);
+  options = {};
+  options.expected.range = 1e-200; // its square is 0
   EXPECT_THROW(BeamCalibration{options}, std::invalid_argument);
   options = {};
   options.way = -1.0;

@@ -32,9 +32,9 @@ struct BeamCalibrationOptions {
   double residual_deviation = 0.3;
   /** Points farther than this from their surface do not belong to it. */
   double max_residual = 0.15;
-  /** The sensor moves by so much before it learns again ... */
+  /** The sensor moves by so much, which may be nothing, before it learns again ... */
   double way = 0.5;
-  /** ... and a scan is forgotten after so many others. */
+  /** ... and what a scan taught fades with so many others (to 1/e). */
   double memory = 200.0;
 };
 
@@ -52,23 +52,26 @@ struct BeamCalibrationOptions {
  * the same principle, from a whole drive.)
  *
  * Beams are told apart by the elevation of their points in the sensor's frame, z up;
- * where several share one, they get their common error. 170 kB.
+ * where several share one, they get their common error. 150 kB.
  * \ingroup registration */
 class PCL_NURBS_REGISTRATION_EXPORT BeamCalibration {
 public:
   /** \brief Number of an interval of elevation. */
   using Beam = std::uint16_t;
 
-  /** \throws std::invalid_argument when an option is not positive */
+  /** \throws std::invalid_argument when an option is not positive, or too small or too
+   * large to be squared */
   explicit BeamCalibration(const BeamCalibrationOptions& options = {});
 
   /** \brief Which beam each point was measured with. O(points)
-   * \param[in] points in the sensor's frame when it measured them; finite */
+   * \param[in] points in the sensor's frame when it measured them. Those at its origin,
+   * or not finite, are taken for the horizon's; nothing is learnt from them */
   static std::vector<Beam>
   beamsOf(const ScanPoints& points);
 
   /** \brief Take out of points what is known of their beams' errors. O(points)
-   * \param[in,out] points as for beamsOf() */
+   * \param[in,out] points as for beamsOf()
+   * \throws std::invalid_argument when there is not one beam of beamsOf() per point */
   void
   correct(ScanPoints& points, const std::vector<Beam>& beams) const;
 
@@ -76,12 +79,17 @@ public:
    * the last one. O(points)
    * \param[in] map what the scan was aligned with, without it
    * \param[in] points corrected, in the frame of \a pose
-   * \param[in] pose from that frame to the map's
+   * \param[in] measured the same points, corrected, in the sensor's frame when it
+   * measured each: \a points themselves unless they were deskewed
+   * \param[in] pose from that frame to the map's; nothing is learnt from one that is not
+   * finite
    * \param[in] threads the result does not depend on it
-   * \throws std::invalid_argument when there is not one beam per point */
+   * \throws std::invalid_argument when there is not one measured point, and one beam of
+   * beamsOf(), per point, or no thread */
   void
   learn(const VoxelMap& map,
         const ScanPoints& points,
+        const ScanPoints& measured,
         const std::vector<Beam>& beams,
         const Eigen::Isometry3d& pose,
         int threads = 1);
@@ -96,7 +104,6 @@ private:
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     Eigen::Vector3d error = Eigen::Vector3d::Zero(); // range, elevation, azimuth
-    bool any = false;
   };
 
   void

@@ -27,7 +27,7 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   /** Moment of the scan, 0 .. 1, that its pose is for. */
   double reference_time = 0.5;
   /** Learn, and take out, what the calibration of a turning laser left (z up in the
-   * sensor's frame). */
+   * sensor's frame). Costs a laser without such errors a tenth of its accuracy. */
   bool calibrate_beams = true;
   BeamCalibrationOptions beams;
   /** Local map. */
@@ -71,8 +71,8 @@ struct OdometryResult {
   double threshold = 0.0;
   /** The alignment: covariance, degeneracy, residuals. */
   MatchResult match;
-  /** The scan, cropped, deskewed and thinned to OdometryOptions::map_spacing, in the
-   * sensor's frame. */
+  /** The scan, cropped, without the known errors of its beams, deskewed and thinned to
+   * OdometryOptions::map_spacing, in the sensor's frame. */
   ScanPoints points;
 };
 
@@ -129,16 +129,20 @@ public:
   }
 
 private:
-  using Beams = std::vector<BeamCalibration::Beam>;
+  /** How the points of a thinned scan were measured; empty when beams are not
+   * calibrated. */
+  struct Readings {
+    ScanPoints points; // before they were deskewed
+    std::vector<BeamCalibration::Beam> beams;
+  };
 
-  /** \param[out] beams of the points, as far as they are calibrated */
   ScanPoints
   prepare(const ScanPoints& points,
           const std::vector<float>& times,
-          Beams& beams) const;
+          Readings& readings) const;
 
   void
-  track(double interval, const Beams& beams, OdometryResult& result);
+  track(double interval, const Readings& readings, OdometryResult& result);
 
   void
   insert(const OdometryResult& result);

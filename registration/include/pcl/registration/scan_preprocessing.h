@@ -9,9 +9,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/types.h>
 
-#include <cstddef>
 #include <limits>
-#include <vector>
 
 namespace pcl {
 namespace nurbs {
@@ -48,29 +46,9 @@ finitePoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
 PCL_NURBS_REGISTRATION_EXPORT ScanPoints
 voxelSubsample(const ScanPoints& points, double voxel_size);
 
-/** \brief The points that voxelSubsample() keeps, by their numbers. */
-PCL_NURBS_REGISTRATION_EXPORT std::vector<std::size_t>
-voxelSubsampleIndices(const ScanPoints& points, double voxel_size);
-
 /** \brief So many points at most, evenly chosen in the scan's order. O(points) */
 PCL_NURBS_REGISTRATION_EXPORT ScanPoints
 thinned(const ScanPoints& points, std::size_t most);
-
-/** \brief The same of numbers of points. */
-PCL_NURBS_REGISTRATION_EXPORT std::vector<std::size_t>
-thinned(const std::vector<std::size_t>& indices, std::size_t most);
-
-/** \brief The values with some numbers. */
-template <typename Value>
-std::vector<Value>
-selected(const std::vector<Value>& values, const std::vector<std::size_t>& indices)
-{
-  std::vector<Value> some;
-  some.reserve(indices.size());
-  for (const std::size_t index : indices)
-    some.push_back(values[index]);
-  return some;
-}
 
 /** \brief A size of voxels that suits a cloud: the smallest at which about as many
  * places look flat as at any other size up to a sixteenth of the extent. O(points)
