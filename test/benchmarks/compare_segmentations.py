@@ -22,6 +22,7 @@ SOURCES = [
     ("icl_nuim_lr_kt0/depth/*.png", 1, ("--depth-scale", "5000")),
     ("seven_scenes_redkitchen/**/*depth.png", 1, ()),
     ("synthetic_knot/depth_syn.png", 1, ("--intrinsics", "415.692,415.692,319.5,239.5")),
+    ("synthetic_knot/*.ply", 1, ()),
     ("redwood_bollard/01220_depth.png", 1, ()),
     ("synpeb_room/*.pcd", 1, ()),
     ("kitti_odometry/sequences/00/velodyne/*.bin", 1, ()),
