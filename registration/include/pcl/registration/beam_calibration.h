@@ -44,12 +44,15 @@ struct BeamCalibrationOptions {
  * scans do not remove them: surfaces ahead are first seen by the beams that look far
  * and then by others, so that every scan is drawn the same way, and the trajectory
  * bends. But they show in the distances of points from the surfaces they are matched
- * with, \f[ e = n^T (u \, \delta + e_\theta \, r \, \epsilon + e_\phi \, l \, \alpha),
- * \f] n the normal, u the ray, r the range and l its level part; errors of range,
- * elevation and azimuth are found for each tenth of a degree of elevation by least
- * squares, with what is expected of them as prior. What all beams have alike does not
- * show and is taken for zero. (Levinson and Thrun, ISER 2010, calibrate a Velodyne by
- * the same principle, from a whole drive.)
+ * with,
+ *
+ * \f[ e = n^T (u \, \delta + e_\theta \, r \, \epsilon + e_\phi \, l \, \alpha), \f]
+ *
+ * n the normal, u the ray, r the range and l its level part. The errors of range,
+ * elevation and azimuth are found by least squares for each interval of the elevation's
+ * sine (a tenth of a degree at the horizon), with what is expected of them as prior.
+ * What all beams have alike does not show and is taken for zero. (Levinson and Thrun,
+ * ISER 2010, calibrate a Velodyne by the same principle, from a whole drive.)
  *
  * Beams are told apart by the elevation of their points in the sensor's frame, z up;
  * where several share one, they get their common error. 150 kB.

@@ -29,6 +29,7 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   /** Learn, and take out, what the calibration of a turning laser left (z up in the
    * sensor's frame). Costs a laser without such errors a tenth of its accuracy. */
   bool calibrate_beams = true;
+  /** What is expected of the beams, and how fast it is learnt. */
   BeamCalibrationOptions beams;
   /** Local map. */
   VoxelMapOptions map;
