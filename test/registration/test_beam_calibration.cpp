@@ -185,10 +185,21 @@ TEST(BeamCalibration, goodBeamsStayAsTheyAre)
   const BeamCalibration calibration = drive(plantedErrors(0.0), 50);
   for (int beam = 0; beam < kBeams; ++beam) {
     const BeamError found = calibration.error(elevationOf(beam));
-    EXPECT_LT(std::abs(found.range), 0.006);
-    EXPECT_LT(std::abs(found.elevation), 3e-4);
-    EXPECT_LT(std::abs(found.azimuth), 3e-4);
+    EXPECT_LT(std::abs(found.range), 5e-4);
+    EXPECT_LT(std::abs(found.elevation), 5e-5);
+    EXPECT_LT(std::abs(found.azimuth), 5e-5);
   }
+}
+
+TEST(BeamCalibration, whatBeamsShareWithTheirNeighboursIsLeft)
+{
+  // Bent roads, and the trajectory itself, make such residuals as well.
+  std::vector<BeamError> errors = plantedErrors(0.0);
+  for (int beam = 0; beam < kBeams; ++beam)
+    errors[static_cast<std::size_t>(beam)].range = 0.02 * elevationOf(beam) / 0.43;
+  const BeamCalibration calibration = drive(errors, 50);
+  for (int beam = 0; beam < kBeams; ++beam)
+    EXPECT_LT(std::abs(calibration.error(elevationOf(beam)).range), 2e-3);
 }
 
 TEST(BeamCalibration, correctingTakesOutWhatIsKnown)
