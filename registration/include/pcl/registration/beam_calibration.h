@@ -52,8 +52,8 @@ struct BeamCalibrationOptions {
  * elevation and azimuth are found by least squares for each interval of the elevation's
  * sine (a tenth of a degree at the horizon), with a prior whose variances are those of
  * the errors themselves: how much they differ from beam to beam (empirical Bayes), at
- * most what is expected. So little is taken out of a laser that has no such errors. What
- * beams share with their neighbours within 8 degrees is left: bent roads and the
+ * most what is expected. So little is taken out of a laser that has no such errors.
+ * What beams share with their neighbours within 8 degrees is left: bent roads and the
  * trajectory itself look the same. (Levinson and Thrun, ISER 2010, calibrate a Velodyne
  * by the same principle, from a whole drive.)
  *
