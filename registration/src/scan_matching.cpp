@@ -70,6 +70,8 @@ linearize(const MatchPairs& pairs,
     const LocalSurface& surface = pairs.pairs()[i].surface;
     if (surface.flat())
       sum.apparent += weight * normalNoise(jacobian, rotation, surface);
+    else if (!surface.scattered)
+      sum.apparent.noalias() += weighted * jacobian;
     else {
       const Eigen::Matrix3d free = rotation.transpose() *
                                    (Eigen::Matrix3d::Identity() - surface.held) *
