@@ -137,6 +137,24 @@ suitableVoxelSize(const ScanPoints& points)
   return std::ldexp(options.voxel_size, static_cast<int>(smallest - shares.begin()));
 }
 
+bool
+isSparse(const ScanPoints& points, const VoxelMapOptions& options)
+{
+  constexpr int kCoarser = 3;
+  constexpr double kFew = 0.38; // 16 and 32 beams: up to 0.34, 64 beams: 0.41 and more
+  const ScanPoints places = voxelSubsample(points, 2.0 * options.voxel_size);
+  VoxelMap map(options);
+  for (const Eigen::Vector3f& point : points)
+    map.insert(point.cast<double>());
+  const double fine = flatShare(map, places);
+  double most = fine;
+  for (int i = 0; i < kCoarser; ++i) {
+    map = map.coarsened();
+    most = std::max(most, flatShare(map, places));
+  }
+  return fine < kFew * most;
+}
+
 VerticalTurn::VerticalTurn(double angle)
     : cosine_(std::cos(angle)), sine_(std::sin(angle))
 {

@@ -57,6 +57,13 @@ thinned(const ScanPoints& points, std::size_t most);
 PCL_NURBS_REGISTRATION_EXPORT double
 suitableVoxelSize(const ScanPoints& points);
 
+/** \brief Whether a scan alone shows few surfaces in voxels of a map: fewer than four
+ * tenths of the planes that it shows in voxels up to eight times that large. Such are
+ * the rings of a laser with few beams: lines, at that size. O(points)
+ * \param[in] points finite points; \param[in] options of the map */
+PCL_NURBS_REGISTRATION_EXPORT bool
+isSparse(const ScanPoints& points, const VoxelMapOptions& options);
+
 /** \brief By how much the vertical angles of KITTI's intrinsic calibration are too low,
  * radians (Deschaud, IMLS-SLAM, ICRA 2018). */
 constexpr double kKittiVerticalAngle = 0.205 * 3.14159265358979323846 / 180.0;
