@@ -92,8 +92,8 @@ struct OdometryResult {
  * is and the sensor on its predicted way; after several of those the map is begun anew
  * there.
  *
- * A sparse laser's rings go along with it. A young map consists of nothing else, so that
- * each scan fits best where the sensor moves as it seemed to before: a slope that
+ * A sparse laser's rings go along with it. A young map consists of nothing else, so
+ * that each scan fits best where the sensor moves as it seemed to before: a slope that
  * changes is not seen, and the map is bent by it. Its first scans are therefore aligned
  * with planes so large that a single scan knows them.
  *

@@ -60,7 +60,8 @@ suitableVoxelSize(const ScanPoints& points);
 /** \brief Whether a scan alone shows few surfaces in voxels of a map: fewer than four
  * tenths of the planes that it shows in voxels up to eight times that large. Such are
  * the rings of a laser with few beams: lines, at that size. O(points)
- * \param[in] points finite points; \param[in] options of the map */
+ * \param[in] points finite points, thinned as they are for the map
+ * \param[in] options of the map */
 PCL_NURBS_REGISTRATION_EXPORT bool
 isSparse(const ScanPoints& points, const VoxelMapOptions& options);
 
