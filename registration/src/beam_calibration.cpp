@@ -17,6 +17,12 @@ namespace {
 
 /** Intervals of the sine of the elevation, from -1 to 1: 0.1 degrees at the horizon. */
 constexpr std::size_t kBeams = 1146;
+/** Beams as far apart have nothing in common: 8 degrees at the horizon. */
+constexpr std::size_t kNeighbourhood = 80;
+/** Errors are at least such a share of those expected, to be squared and inverted. */
+constexpr double kLeastShare = 1e-3;
+/** Added where a sum of weights, which go up to one, may be nothing. */
+constexpr double kTiny = 1e-9;
 
 BeamCalibration::Beam
 beamAt(double sine)
@@ -70,13 +76,25 @@ residualOf(const VoxelMap& map,
   return Residual{distance, errorDirections(measured).transpose() * normal};
 }
 
-/** Inverse variances of what is expected. */
-Eigen::Vector3d
-priorOf(const BeamError& expected)
+/** Variances of what is expected. */
+Eigen::Array3d
+varianceOf(const BeamError& expected)
 {
-  return Eigen::Array3d(expected.range, expected.elevation, expected.azimuth)
-      .square()
-      .inverse();
+  return Eigen::Array3d(expected.range, expected.elevation, expected.azimuth).square();
+}
+
+/** For each beam the sum over those in its neighbourhood. O(beams) */
+std::vector<Eigen::Array3d>
+sumsOfNeighbours(const std::vector<Eigen::Array3d>& values)
+{
+  std::vector<Eigen::Array3d> before(kBeams + 1, Eigen::Array3d::Zero());
+  for (std::size_t i = 0; i < kBeams; ++i)
+    before[i + 1] = before[i] + values[i];
+  std::vector<Eigen::Array3d> sums(kBeams);
+  for (std::size_t i = 0; i < kBeams; ++i)
+    sums[i] = before[std::min(i + kNeighbourhood + 1, kBeams)] -
+              before[i - std::min(i, kNeighbourhood)];
+  return sums;
 }
 
 void
@@ -109,7 +127,6 @@ BeamCalibration::BeamCalibration(const BeamCalibrationOptions& options)
     : options_(options), beams_(kBeams)
 {
   check(options);
-  prior_ = priorOf(options.expected);
 }
 
 std::vector<BeamCalibration::Beam>
@@ -191,25 +208,44 @@ BeamCalibration::forgetSome()
 void
 BeamCalibration::solve()
 {
+  const Eigen::Array3d expected = varianceOf(options_.expected);
+  const Eigen::Array3d spread = solveWith(expected);
+  solveWith(spread.min(expected).max(kLeastShare * kLeastShare * expected));
+}
+
+Eigen::Array3d
+BeamCalibration::solveWith(const Eigen::Array3d& variance)
+{
   // How much of a beam's error is known, from 0 to 1, says how much it counts for what
-  // all have in common, and how much of that is taken out of it.
-  const auto known = [this](const Learned& beam) -> Eigen::Vector3d {
-    const Eigen::Vector3d information = beam.matrix.diagonal();
-    return information.cwiseQuotient(information + prior_);
-  };
-  const Eigen::Matrix3d prior = prior_.asDiagonal();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Vector3d squares = Eigen::Vector3d::Constant(1e-12);
-  for (Learned& beam : beams_) {
-    if (beam.matrix.isZero(0.0))
-      continue;
-    beam.error = (beam.matrix + prior).ldlt().solve(beam.right);
-    sum += known(beam).cwiseProduct(beam.error);
-    squares += known(beam).cwiseAbs2();
+  // its neighbourhood shares, and how much of that is taken out of it.
+  const Eigen::Array3d prior = variance.inverse();
+  const Eigen::Matrix3d prior_matrix = prior.matrix().asDiagonal();
+  std::vector<Eigen::Array3d> known(kBeams);
+  std::vector<Eigen::Array3d> weights(kBeams);
+  std::vector<Eigen::Array3d> shared(kBeams);
+  for (std::size_t i = 0; i < kBeams; ++i) {
+    Learned& beam = beams_[i];
+    const Eigen::Array3d information = beam.matrix.diagonal();
+    known[i] = information / (information + prior);
+    weights[i] = known[i].square();
+    if (!beam.matrix.isZero(0.0))
+      beam.error = (beam.matrix + prior_matrix).ldlt().solve(beam.right);
+    shared[i] = known[i] * beam.error.array();
   }
-  const Eigen::Vector3d common = sum.cwiseQuotient(squares);
-  for (Learned& beam : beams_)
-    beam.error -= known(beam).cwiseProduct(common);
+  weights = sumsOfNeighbours(weights);
+  shared = sumsOfNeighbours(shared);
+  Eigen::Array3d squares = Eigen::Array3d::Zero();
+  Eigen::Array3d freedoms = Eigen::Array3d::Constant(kTiny);
+  for (std::size_t i = 0; i < kBeams; ++i) {
+    if (beams_[i].matrix.isZero(0.0))
+      continue;
+    const Eigen::Array3d total = weights[i] + kTiny;
+    Eigen::Vector3d& error = beams_[i].error;
+    error -= (known[i] * shared[i] / total).matrix();
+    squares += (known[i] * error.array()).square();
+    freedoms += known[i].pow(4) * (1.0 - known[i].square() / total);
+  }
+  return squares / freedoms;
 }
 
 BeamError

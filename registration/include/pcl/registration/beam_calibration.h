@@ -24,8 +24,8 @@ struct BeamError {
 /** \brief Parameters of BeamCalibration; metres and radians.
  * \ingroup registration */
 struct BeamCalibrationOptions {
-  /** Standard deviations of what a calibration leaves: 3.5 cm and 0.03 degrees, as
-   * rings of KITTI's HDL-64E are off from each other. */
+  /** Largest standard deviations of what a calibration leaves: 3.5 cm and 0.03 degrees,
+   * as rings of KITTI's HDL-64E are off from each other. */
   BeamError expected{0.035, 5.2e-4, 5.2e-4};
   /** Of a point's distance from its surface. Much more than the noise of a reading:
    * what one scan sees of a place others see as well, and with the same errors. */
@@ -50,9 +50,12 @@ struct BeamCalibrationOptions {
  *
  * n the normal, u the ray, r the range and l its level part. The errors of range,
  * elevation and azimuth are found by least squares for each interval of the elevation's
- * sine (a tenth of a degree at the horizon), with what is expected of them as prior.
- * What all beams have alike does not show and is taken for zero. (Levinson and Thrun,
- * ISER 2010, calibrate a Velodyne by the same principle, from a whole drive.)
+ * sine (a tenth of a degree at the horizon), with a prior whose variances are those of
+ * the errors themselves: how much they differ from beam to beam (empirical Bayes), at
+ * most what is expected. So little is taken out of a laser that has no such errors.
+ * What beams share with their neighbours within 8 degrees is left: bent roads and the
+ * trajectory itself look the same. (Levinson and Thrun, ISER 2010, calibrate a Velodyne
+ * by the same principle, from a whole drive.)
  *
  * Beams are told apart by the elevation of their points in the sensor's frame, z up;
  * where several share one, they get their common error. 150 kB.
@@ -112,11 +115,16 @@ private:
   void
   forgetSome();
 
+  /** Errors by what was learnt and how much they differ from beam to beam. */
   void
   solve();
 
+  /** Errors for such variances of their kinds, without what neighbours share; the
+   * variances that these have. */
+  Eigen::Array3d
+  solveWith(const Eigen::Array3d& variance);
+
   BeamCalibrationOptions options_;
-  Eigen::Vector3d prior_; // inverse variances
   std::vector<Learned> beams_;
   Eigen::Vector3d learned_at_ = Eigen::Vector3d::Zero();
   bool any_ = false;
