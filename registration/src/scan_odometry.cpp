@@ -175,8 +175,6 @@ ScanOdometry::track(double interval, const Readings& readings, OdometryResult& r
   result.threshold = threshold_.value();
   MatchOptions match = options_.match;
   match.max_distance = result.threshold;
-  if (first_map_)
-    match.scatter_weight = 0.0; // edges of rings go along
   const std::vector<std::size_t> some =
       evenlyChosen(voxelSubsampleIndices(result.points, options_.match_spacing),
                    options_.max_match_points);
@@ -216,8 +214,7 @@ ScanOdometry::clearMap()
 void
 ScanOdometry::updateFirstMap(const OdometryResult& result)
 {
-  if (map_.empty() && options_.first_way > 0.0 &&
-      isSparse(result.points, options_.map)) {
+  if (map_.empty() && options_.first_way > 0.0 && isSparse(result.points)) {
     VoxelMapOptions options = options_.map;
     options.voxel_size *= options_.first_voxels;
     options.min_spacing *= options_.first_voxels;

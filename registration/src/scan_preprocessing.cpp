@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 
+#include <pcl/registration/beam_calibration.h>
 #include <pcl/registration/scan_preprocessing.h>
 
 #include "chunked_sum.h"
@@ -10,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <stdexcept>
 
 namespace pcl {
@@ -138,21 +141,27 @@ suitableVoxelSize(const ScanPoints& points)
 }
 
 bool
-isSparse(const ScanPoints& points, const VoxelMapOptions& options)
+isSparse(const ScanPoints& points)
 {
-  constexpr int kCoarser = 3;
-  constexpr double kFew = 0.38; // 16 and 32 beams: up to 0.34, 64 beams: 0.41 and more
-  const ScanPoints places = voxelSubsample(points, 2.0 * options.voxel_size);
-  VoxelMap map(options);
-  for (const Eigen::Vector3f& point : points)
-    map.insert(point.cast<double>());
-  const double fine = flatShare(map, places);
-  double most = fine;
-  for (int i = 0; i < kCoarser; ++i) {
-    map = map.coarsened();
-    most = std::max(most, flatShare(map, places));
+  constexpr double kFewPoints = 5e-4; // of all, in an interval that counts
+  constexpr double kRing = 50.0;      // points of a ring
+  constexpr double kFew = 0.15;
+  std::map<BeamCalibration::Beam, std::size_t> counts;
+  for (const BeamCalibration::Beam beam : BeamCalibration::beamsOf(points))
+    ++counts[beam];
+  const double least = kFewPoints * static_cast<double>(points.size());
+  double rings = 0.0;
+  double field = 0.0;
+  std::optional<BeamCalibration::Beam> lowest;
+  for (const auto& [beam, count] : counts) {
+    if (!(static_cast<double>(count) > least))
+      continue;
+    lowest = lowest.value_or(beam);
+    field = beam - *lowest + 1.0;
+    rings += 1.0;
   }
-  return fine < kFew * most;
+  return rings > 0.0 && static_cast<double>(points.size()) >= kRing * rings &&
+         rings < kFew * field;
 }
 
 VerticalTurn::VerticalTurn(double angle)

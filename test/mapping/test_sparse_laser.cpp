@@ -46,12 +46,12 @@ TEST(SparseLaser, isKnownByItsScan)
   const auto sparse = [](const LaserModel& laser) {
     const SimulatedDrive drive(shortDrive(1), laser, {});
     const ScanPoints points = finitePoints(*drive.read(0).cloud);
-    return isSparse(voxelSubsample(points, OdometryOptions().map_spacing), {});
+    return isSparse(voxelSubsample(points, OdometryOptions().map_spacing));
   };
   EXPECT_TRUE(sparse(LaserModel::vlp16()));
   EXPECT_TRUE(sparse(LaserModel::hdl32()));
   EXPECT_FALSE(sparse(LaserModel::hdl64()));
-  EXPECT_FALSE(isSparse({}, {}));
+  EXPECT_FALSE(isSparse({}));
 }
 
 TEST(SparseLaser, refusesAFirstMapThatMakesNoSense)
