@@ -35,6 +35,9 @@ check(const OdometryOptions& options)
     throw std::invalid_argument("ScanOdometry: the ranges must be in order");
   if (!(options.map_spacing > 0.0) || !(options.match_spacing > 0.0))
     throw std::invalid_argument("ScanOdometry: spacings must be positive");
+  if (!(options.first_voxels >= 1.0) || !(options.first_way >= 0.0))
+    throw std::invalid_argument("ScanOdometry: the first map's voxels are not smaller "
+                                "and its way is not negative");
   if (options.threads < 1)
     throw std::invalid_argument("ScanOdometry: at least one thread is needed");
 }
@@ -158,7 +161,8 @@ ScanOdometry::process(const ScanPoints& points,
     track(interval, readings, result);
   lost_ = result.tracked ? 0 : lost_ + 1;
   if (lost_ > kMostLost && !result.points.empty())
-    map_.clear(), usual_share_ = 0.0;
+    clearMap();
+  first_way_ += (pose_.inverse() * result.pose).translation().norm();
   if (result.tracked || map_.empty())
     insert(result);
   decideKeyframe(result);
@@ -178,7 +182,7 @@ ScanOdometry::track(double interval, const Readings& readings, OdometryResult& r
                    options_.max_match_points);
   const ScanPoints scan = selected(result.points, some);
   ScanAlignment alignment =
-      alignScan(map_, scan, {predicted, pose_, usual_share_}, match);
+      alignScan(target(), scan, {predicted, pose_, usual_share_}, match);
   result.match = std::move(alignment.match);
   result.searched = alignment.searched;
   const double share = result.match.inlier_share;
@@ -189,7 +193,8 @@ ScanOdometry::track(double interval, const Readings& readings, OdometryResult& r
   usual_share_ += (usual_share_ > 0.0 ? kShareUpdate : 1.0) * (share - usual_share_);
   result.pose = result.match.pose;
   threshold_.addDeviation(predicted.inverse() * result.pose);
-  if (options_.calibrate_beams && result.match.degeneracy.unsupported == 0)
+  if (options_.calibrate_beams && !first_map_ &&
+      result.match.degeneracy.unsupported == 0)
     calibration_.learn(map_,
                        scan,
                        selected(readings.points, some),
@@ -201,8 +206,38 @@ ScanOdometry::track(double interval, const Readings& readings, OdometryResult& r
 }
 
 void
+ScanOdometry::clearMap()
+{
+  map_.clear();
+  first_map_.reset();
+  usual_share_ = 0.0;
+}
+
+void
+ScanOdometry::updateFirstMap(const OdometryResult& result)
+{
+  if (map_.empty() && options_.first_way > 0.0 && isSparse(result.points)) {
+    VoxelMapOptions options = options_.map;
+    options.voxel_size *= options_.first_voxels;
+    options.min_spacing *= options_.first_voxels;
+    first_map_.emplace(options);
+    first_way_ = 0.0;
+  }
+  if (!first_map_)
+    return;
+  if (first_way_ > options_.first_way * first_map_->options().voxel_size) {
+    first_map_.reset();
+    usual_share_ = 0.0; // of a scan that lies on the other map
+    return;
+  }
+  for (const Eigen::Vector3f& point : result.points)
+    first_map_->insert(result.pose * point.cast<double>());
+}
+
+void
 ScanOdometry::insert(const OdometryResult& result)
 {
+  updateFirstMap(result);
   for (const Eigen::Vector3f& point : result.points)
     map_.insert(result.pose * point.cast<double>());
   const Eigen::Vector3d place = result.pose.translation();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the PCL-NURBS authors
 
+#include <pcl/registration/beam_calibration.h>
 #include <pcl/registration/scan_preprocessing.h>
 
 #include "chunked_sum.h"
@@ -10,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <stdexcept>
 
 namespace pcl {
@@ -135,6 +138,30 @@ suitableVoxelSize(const ScanPoints& points)
   const auto smallest = std::find_if(
       shares.begin(), shares.end(), [&](double share) { return share >= enough; });
   return std::ldexp(options.voxel_size, static_cast<int>(smallest - shares.begin()));
+}
+
+bool
+isSparse(const ScanPoints& points)
+{
+  constexpr double kFewPoints = 5e-4; // of all, in an interval that counts
+  constexpr double kRing = 50.0;      // points of a ring
+  constexpr double kFew = 0.15;
+  std::map<BeamCalibration::Beam, std::size_t> counts;
+  for (const BeamCalibration::Beam beam : BeamCalibration::beamsOf(points))
+    ++counts[beam];
+  const double least = kFewPoints * static_cast<double>(points.size());
+  double rings = 0.0;
+  double field = 0.0;
+  std::optional<BeamCalibration::Beam> lowest;
+  for (const auto& [beam, count] : counts) {
+    if (!(static_cast<double>(count) > least))
+      continue;
+    lowest = lowest.value_or(beam);
+    field = beam - *lowest + 1.0;
+    rings += 1.0;
+  }
+  return rings > 0.0 && static_cast<double>(points.size()) >= kRing * rings &&
+         rings < kFew * field;
 }
 
 VerticalTurn::VerticalTurn(double angle)

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace pcl {
 namespace nurbs {
@@ -40,6 +41,11 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
   /** ... no more than so many points, evenly chosen: leaves and grass have many that
    * add little. */
   std::size_t max_match_points = 4500;
+  /** The first scans of a sparse laser (see isSparse()) are aligned with the planes of
+   * a map with voxels so many times larger, ... */
+  double first_voxels = 5.0;
+  /** ... until the sensor has gone so far, in those voxels; 0 for not at all. */
+  double first_way = 10.0;
   /** Alignment; its maximal distance follows the motion. */
   MatchOptions match;
   MotionThresholdOptions threshold;
@@ -85,6 +91,11 @@ struct OdometryResult {
  * with planes where there are planes. Scans that cannot be aligned leave the map as it
  * is and the sensor on its predicted way; after several of those the map is begun anew
  * there.
+ *
+ * A sparse laser's rings go along with it. A young map consists of nothing else, so
+ * that each scan fits best where the sensor moves as it seemed to before: a slope that
+ * changes is not seen, and the map is bent by it. Its first scans are therefore aligned
+ * with planes so large that a single scan knows them.
  *
  * Not to be called from several threads at a time.
  * \ingroup registration */
@@ -145,6 +156,20 @@ private:
   void
   track(double interval, const Readings& readings, OdometryResult& result);
 
+  /** The map that scans are aligned with now. */
+  const VoxelMap&
+  target() const
+  {
+    return first_map_ ? *first_map_ : map_;
+  }
+
+  void
+  clearMap();
+
+  /** Begin the map of the first scans where that is needed, and end it. */
+  void
+  updateFirstMap(const OdometryResult& result);
+
   void
   insert(const OdometryResult& result);
 
@@ -157,6 +182,8 @@ private:
   OdometryOptions options_;
   KeyframeDecision decision_; // by way and angle if there is none
   VoxelMap map_;
+  std::optional<VoxelMap> first_map_;
+  double first_way_ = 0.0; // since it was begun, metres
   BeamCalibration calibration_;
   MotionThreshold threshold_;
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();

@@ -57,6 +57,14 @@ thinned(const ScanPoints& points, std::size_t most);
 PCL_NURBS_REGISTRATION_EXPORT double
 suitableVoxelSize(const ScanPoints& points);
 
+/** \brief Whether a scan is one of a laser with few beams: rings with at least 50
+ * points each in less than 15 % of the intervals, of a tenth of a degree, of its field
+ * of view. Beams are then some 0.7 degrees apart or more, and leave gaps wider than
+ * voxels. O(points)
+ * \param[in] points in the sensor's frame when it measured them; may be thinned */
+PCL_NURBS_REGISTRATION_EXPORT bool
+isSparse(const ScanPoints& points);
+
 /** \brief By how much the vertical angles of KITTI's intrinsic calibration are too low,
  * radians (Deschaud, IMLS-SLAM, ICRA 2018). */
 constexpr double kKittiVerticalAngle = 0.205 * 3.14159265358979323846 / 180.0;
