@@ -19,6 +19,9 @@ struct LocalSurface {
   /** Whether it has depth in all directions, as leaves have: neither a plane nor the
    * edge between two, along which points may slide. */
   bool scattered = false;
+  /** Where it is scattered, how much of a motion takes a point away from the target:
+   * none, where others follow in its direction. */
+  Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
 
   bool
   flat() const

@@ -26,6 +26,22 @@ constexpr double kPlaneThickness = 1e-3;
  * dimension. */
 constexpr double kMedianToSigma = 1.4826;
 
+/** How the distance to the nearest point changes when a point of a map moves by a voxel
+ * to either side. */
+Eigen::Matrix3d
+heldAround(const VoxelMap& map, const Eigen::Vector3d& target)
+{
+  const double step = map.options().voxel_size;
+  Eigen::Matrix3d slope;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d way = step * Eigen::Vector3d::Unit(k);
+    const auto ahead = map.nearest(target + way, 1.01 * step).value_or(target);
+    const auto behind = map.nearest(target - way, 1.01 * step).value_or(target);
+    slope.col(k) = Eigen::Vector3d::Unit(k) - (ahead - behind) / (2.0 * step);
+  }
+  return 0.5 * (slope + slope.transpose());
+}
+
 } // namespace
 
 MatchPairs::MatchPairs(const VoxelMap& map,
@@ -56,6 +72,8 @@ MatchPairs::lookUp(const Eigen::Vector3d& place, MatchPair& pair) const
     return;
   pair.block = block;
   pair.surface = localSurface(block ? map_.surfaceOfBlock(*block) : PointMoments());
+  if (pair.surface.scattered)
+    pair.surface.held = heldAround(map_, pair.target);
 }
 
 std::optional<Eigen::Vector3d>

@@ -143,7 +143,9 @@ describeMatch(const MatchPairs& pairs,
                       normalNoise(jacobian, result.pose.linear(), pair.surface);
     }
     else if (pair.surface.scattered) {
-      sums.support += options.scatter_weight * jacobian.transpose() * jacobian;
+      const Eigen::Matrix3d& turn = result.pose.linear();
+      sums.support += options.scatter_weight * jacobian.transpose() *
+                      (turn.transpose() * pair.surface.held * turn) * jacobian;
     }
     const double weight = kernel.weight(term.square);
     sums.squared_range += scan[i].cast<double>().squaredNorm();

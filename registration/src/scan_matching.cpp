@@ -72,6 +72,13 @@ linearize(const MatchPairs& pairs,
       sum.apparent += weight * normalNoise(jacobian, rotation, surface);
     else if (!surface.scattered)
       sum.apparent.noalias() += weighted * jacobian;
+    else {
+      const Eigen::Matrix3d free = rotation.transpose() *
+                                   (Eigen::Matrix3d::Identity() - surface.held) *
+                                   rotation;
+      const TangentMatrix slides = weighted * free * jacobian;
+      sum.apparent += 0.5 * (slides + slides.transpose());
+    }
     sum.weight += weight;
     sum.weighted_range += weight * scan[i].cast<double>().squaredNorm();
   };

@@ -82,6 +82,8 @@ OdometryOptions::rgbd()
   options.threshold.min_threshold = 0.05;
   options.threshold.max_threshold = 0.3;
   options.threshold.max_range = 3.0;
+  // Normals of dense images are surer than those of lasers, and images hold less.
+  options.match.min_support = 2e-4;
   options.match.translation_epsilon = 5e-5;
   options.match.rotation_epsilon = 5e-5;
   options.keyframe_distance = 0.3;

@@ -116,6 +116,79 @@ TEST(HardDrives, AnEmptySquareHoldsHeightAndTilt)
   }
 }
 
+TEST(HardDrives, AWallOnFlatGroundHoldsNothingAlongIt)
+{
+  Scene scene = ground(40);
+  scene.push_back({{-40, 4, -1.7}, {80, 0, 0}, {0, 0, 6}});
+  for (const int samples : {20000, 40000}) {
+    std::mt19937 random(2);
+    ScanOdometry odometry(nearOptions());
+    int reported = 0;
+    for (int i = 0; i < 12; ++i) {
+      const Eigen::Isometry3d truth = at(kSpeed * i);
+      const auto result =
+          odometry.process(scanFrom(scene, at(-10) * truth, 20.0, random, samples));
+      EXPECT_TRUE(result.tracked) << "scan " << i;
+      const Eigen::Vector3d place = result.pose.translation();
+      EXPECT_LT(std::abs(place.x()), 0.05) << "scan " << i; // no speed was ever seen
+      EXPECT_LT(place.tail<2>().norm(), 0.02) << "scan " << i;
+      if (i == 0 || result.match.degeneracy.unsupported == 0)
+        continue;
+      ++reported;
+      EXPECT_GT(std::abs(unsupportedWay(result).x()), 0.99) << "scan " << i;
+    }
+    EXPECT_GE(reported, 10) << samples << " samples";
+  }
+}
+
+/** Balls filled with leaves beside the way. */
+std::vector<Eigen::Vector3d>
+bushes(std::mt19937& random)
+{
+  std::uniform_real_distribution<double> place(-25.0, 25.0);
+  std::uniform_real_distribution<double> size(0.6, 1.6);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<Eigen::Vector3d> leaves;
+  for (int i = 0; i < 40; ++i) {
+    const double radius = size(random);
+    const double x = place(random);
+    const double y = place(random);
+    const Eigen::Vector3d middle(x, std::abs(y) < 2.0 ? y + 4.0 : y, radius - 1.7);
+    for (int k = 0; k < 600; ++k) {
+      const double a = unit(random);
+      const double b = unit(random);
+      const Eigen::Vector3d leaf(a, b, unit(random));
+      if (leaf.norm() < 1.0)
+        leaves.emplace_back(middle + radius * leaf);
+    }
+  }
+  return leaves;
+}
+
+TEST(HardDrives, BushesHold)
+{
+  std::mt19937 random(1);
+  const std::vector<Eigen::Vector3d> leaves = bushes(random);
+  std::bernoulli_distribution seen(0.5);
+  ScanOdometry odometry(nearOptions());
+  int reported = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Isometry3d truth = at(kSpeed * i);
+    const Eigen::Isometry3d pose = at(-8) * truth;
+    ScanPoints scan = scanFrom(ground(25), pose, 20.0, random, 8000);
+    for (const Eigen::Vector3d& leaf : leaves) {
+      const Eigen::Vector3d place = pose.inverse() * leaf;
+      if (place.norm() < 20.0 && seen(random))
+        scan.emplace_back(place.cast<float>());
+    }
+    const auto result = odometry.process(scan);
+    EXPECT_LT((result.pose.translation() - truth.translation()).norm(), 0.25)
+        << "scan " << i;
+    reported += i > 0 && result.match.degeneracy.unsupported > 0 ? 1 : 0;
+  }
+  EXPECT_LE(reported, 3); // while the map is young
+}
+
 TEST(HardDrives, FastTurnsAreSearchedFor)
 {
   std::mt19937 random(5);
