@@ -35,9 +35,9 @@ check(const OdometryOptions& options)
     throw std::invalid_argument("ScanOdometry: the ranges must be in order");
   if (!(options.map_spacing > 0.0) || !(options.match_spacing > 0.0))
     throw std::invalid_argument("ScanOdometry: spacings must be positive");
-  if (!(options.first_voxels >= 1.0) || !(options.first_way >= 0.0))
-    throw std::invalid_argument("ScanOdometry: the first map's voxels are not smaller "
-                                "and its way is not negative");
+  if (!(options.first_voxels > 0.0) || !(options.first_way >= 0.0))
+    throw std::invalid_argument("ScanOdometry: the first map's voxels must be positive "
+                                "and its way not negative");
   if (options.threads < 1)
     throw std::invalid_argument("ScanOdometry: at least one thread is needed");
 }
@@ -128,6 +128,7 @@ ScanOdometry::prepare(const ScanPoints& points,
   }
   if (options_.vertical_angle != 0.0)
     correctVerticalAngle(kept, options_.vertical_angle);
+  readings.sparse = mayBegin() && isSparse(kept);
   if (options_.calibrate_beams) {
     readings.beams = BeamCalibration::beamsOf(kept);
     calibration_.correct(kept, readings.beams);
@@ -138,7 +139,9 @@ ScanOdometry::prepare(const ScanPoints& points,
   const std::vector<std::size_t> some =
       voxelSubsampleIndices(kept, options_.map_spacing);
   if (options_.calibrate_beams)
-    readings = {selected(readings.points, some), selected(readings.beams, some)};
+    readings = {selected(readings.points, some),
+                selected(readings.beams, some),
+                readings.sparse};
   return selected(kept, some);
 }
 
@@ -162,9 +165,8 @@ ScanOdometry::process(const ScanPoints& points,
   lost_ = result.tracked ? 0 : lost_ + 1;
   if (lost_ > kMostLost && !result.points.empty())
     clearMap();
-  first_way_ += (pose_.inverse() * result.pose).translation().norm();
   if (result.tracked || map_.empty())
-    insert(result);
+    insert(result, readings.sparse);
   decideKeyframe(result);
   pose_ = result.pose;
   return result;
@@ -213,18 +215,26 @@ ScanOdometry::clearMap()
   usual_share_ = 0.0;
 }
 
-void
-ScanOdometry::updateFirstMap(const OdometryResult& result)
+bool
+ScanOdometry::mayBegin() const
 {
-  if (map_.empty() && options_.first_way > 0.0 && isSparse(result.points)) {
+  return map_.empty() || lost_ >= kMostLost;
+}
+
+void
+ScanOdometry::updateFirstMap(const OdometryResult& result, bool sparse)
+{
+  if (map_.empty() && sparse && options_.first_way > 0.0) {
     VoxelMapOptions options = options_.map;
-    options.voxel_size *= options_.first_voxels;
-    options.min_spacing *= options_.first_voxels;
+    options.voxel_size = std::max(
+        options.voxel_size, options_.first_voxels * suitableVoxelSize(result.points));
+    options.min_spacing *= options.voxel_size / options_.map.voxel_size;
     first_map_.emplace(options);
     first_way_ = 0.0;
   }
   if (!first_map_)
     return;
+  first_way_ += (result.pose.translation() - pose_.translation()).norm();
   if (first_way_ > options_.first_way * first_map_->options().voxel_size) {
     first_map_.reset();
     usual_share_ = 0.0; // of a scan that lies on the other map
@@ -235,9 +245,9 @@ ScanOdometry::updateFirstMap(const OdometryResult& result)
 }
 
 void
-ScanOdometry::insert(const OdometryResult& result)
+ScanOdometry::insert(const OdometryResult& result, bool sparse)
 {
-  updateFirstMap(result);
+  updateFirstMap(result, sparse);
   for (const Eigen::Vector3f& point : result.points)
     map_.insert(result.pose * point.cast<double>());
   const Eigen::Vector3d place = result.pose.translation();

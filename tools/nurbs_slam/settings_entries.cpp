@@ -92,6 +92,10 @@ addOdometry(SettingsTable& table, SlamSettings& s)
   table.add("odometry.match_spacing", &o.match_spacing, "of matched points, metres");
   table.add("odometry.voxel_size", &o.map.voxel_size, "of the local map, metres");
   table.add("odometry.voxel_points", &o.map.max_points, "kept per voxel");
+  table.add(
+      "odometry.first_way",
+      &o.first_way,
+      "a laser with few beams begins with a coarse map for so many of its voxels");
   table.add("odometry.max_iterations", &o.match.max_iterations, "of one alignment");
   table.add("odometry.min_support",
             &o.match.min_support,

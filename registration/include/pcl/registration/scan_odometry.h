@@ -42,10 +42,11 @@ struct PCL_NURBS_REGISTRATION_EXPORT OdometryOptions {
    * add little. */
   std::size_t max_match_points = 4500;
   /** The first scans of a sparse laser (see isSparse()) are aligned with the planes of
-   * a map with voxels so many times larger, ... */
-  double first_voxels = 5.0;
+   * a map whose voxels are so many times as large as suits the first one (see
+   * suitableVoxelSize()), ... */
+  double first_voxels = 1.5;
   /** ... until the sensor has gone so far, in those voxels; 0 for not at all. */
-  double first_way = 10.0;
+  double first_way = 12.0;
   /** Alignment; its maximal distance follows the motion. */
   MatchOptions match;
   MotionThresholdOptions threshold;
@@ -141,11 +142,11 @@ public:
   }
 
 private:
-  /** How the points of a thinned scan were measured; empty when beams are not
-   * calibrated. */
+  /** How the points of a thinned scan were measured, before they were deskewed. */
   struct Readings {
-    ScanPoints points; // before they were deskewed
+    ScanPoints points; // these and their beams are empty when beams are not calibrated
     std::vector<BeamCalibration::Beam> beams;
+    bool sparse = false; // see isSparse(); asked only where a map may begin
   };
 
   ScanPoints
@@ -166,12 +167,16 @@ private:
   void
   clearMap();
 
+  /** Whether the next scan may be the first one of a map. */
+  bool
+  mayBegin() const;
+
   /** Begin the map of the first scans where that is needed, and end it. */
   void
-  updateFirstMap(const OdometryResult& result);
+  updateFirstMap(const OdometryResult& result, bool sparse);
 
   void
-  insert(const OdometryResult& result);
+  insert(const OdometryResult& result, bool sparse);
 
   bool
   isKeyframe(const OdometryResult& result) const;
