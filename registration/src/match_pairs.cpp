@@ -72,7 +72,7 @@ MatchPairs::lookUp(const Eigen::Vector3d& place, MatchPair& pair) const
     return;
   pair.block = block;
   pair.surface = localSurface(block ? map_.surfaceOfBlock(*block) : PointMoments());
-  if (pair.surface.scattered)
+  if (pair.surface.scattered) // as for all targets within a block
     pair.surface.held = heldAround(map_, pair.target);
 }
 
